@@ -1,0 +1,31 @@
+# How targets are made here, once.
+
+add_library(mpmWarnings INTERFACE)
+target_compile_options(mpmWarnings INTERFACE -Wall -Wextra)
+
+# Flags of the hot kernels. Contraction to fused multiply-add and the absence of errno, traps and signed zeros let
+# plain loops over 64 lanes vectorise; NaN and infinity keep their meaning (no -ffast-math), so that checks for them work.
+add_library(mpmKernelFlags INTERFACE)
+target_compile_options(mpmKernelFlags INTERFACE
+    -fno-math-errno -fno-trapping-math -fno-signed-zeros -ffp-contract=fast)
+if(MPM_NATIVE)
+    target_compile_options(mpmKernelFlags INTERFACE -march=native -mprefer-vector-width=512)
+endif()
+
+# mpm_utility(name LIBS...): one thin main, utilities/<name>/<name>.cpp, put into build/bin.
+function(mpm_utility name)
+    add_executable(${name} ${name}/${name}.cpp)
+    target_link_libraries(${name} PRIVATE mpm::core mpmWarnings ${ARGN})
+endfunction()
+
+# mpm_test(name LIBS...): one Catch2 program from <name>.cpp in the current folder; its cases become ctest tests whose
+# label is the folder's name.
+function(mpm_test name)
+    add_executable(${name} ${name}.cpp $<TARGET_OBJECTS:mpmCatchMain>)
+    target_link_libraries(${name} PRIVATE mpm::core mpmWarnings Catch2::Catch2 ${ARGN})
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_definitions(${name} PRIVATE MPM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MPM_BUILD_DIR="${PROJECT_BINARY_DIR}")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    get_filename_component(label ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    catch_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label})
+endfunction()

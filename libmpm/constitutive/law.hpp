@@ -1,0 +1,79 @@
+#pragma once
+/// The interface of a material law: stress update of one chunk of particles in the co-rotated frame.
+///
+/// The stepper has rotated the stress by dR (METHOD: dR = (I - dt W/2)^-1 (I + dt W/2)); the law adds C : dStrain and
+/// returns to its yield surface. One virtual call per chunk, a vector loop over lanes inside: no branch per particle.
+///
+/// To add a law: one header with its equation and a dictionary example, one source, one line in lawCatalogue.cpp, one
+/// unit test.
+#include "base/types.hpp"
+#include "dictionary/dictionary.hpp"
+
+#include <memory>
+#include <string>
+
+namespace mpm::constitutive
+{
+/// One chunk of particles. All 64 lanes hold finite numbers; lanes from `count` on are copies that nobody reads back.
+template <int dim>
+struct Chunk
+{
+    static constexpr int nc = stressSize<dim>;
+    int count = lanes;
+    alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
+    alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
+    /// out: plastic work (sigma_start + sigma_end)/2 : dEps_p per current volume [J/m^3], so that elastic + plastic
+    /// adds up to the work of the mid-step stress
+    alignas(64) double plasticWork[lanes];
+    /// out: volumetric plastic strain the return to the apex drops beyond what the flow rule allows [-]; 0 elsewhere
+    alignas(64) double apexStrain[lanes];
+    /// out: f/max(|sigma|, strength scale) after the update [-]; <= 0 inside, round-off on the surface
+    alignas(64) double yield[lanes];
+};
+
+class Law
+{
+  public:
+    virtual ~Law() = default;
+
+    virtual std::string name() const = 0;
+    /// One line for the banner: parameters with units.
+    virtual std::string describe() const = 0;
+
+    virtual void update(Chunk<2>& chunk) const = 0;
+    virtual void update(Chunk<3>& chunk) const = 0;
+
+    /// Elastic moduli at rest [Pa], for wave speeds and elastic energy.
+    virtual double bulkModulus() const = 0;
+    virtual double shearModulus() const = 0;
+    /// P-wave modulus K + 4/3 G [Pa].
+    double waveModulus() const { return bulkModulus() + 4.0 / 3.0 * shearModulus(); }
+    /// nu = (3K - 2G)/(2(3K + G)).
+    double poissonRatio() const
+    {
+        return (3 * bulkModulus() - 2 * shearModulus()) / (2 * (3 * bulkModulus() + shearModulus()));
+    }
+    /// Can the law yield at all? (The monitor asks.)
+    virtual bool plastic() const { return false; }
+};
+
+/// 1/2 sigma : C^-1 : sigma of an isotropic elastic solid [J/m^3]; components in storage order (4 or 6).
+template <int dim>
+double elasticEnergyDensity(const double (&sigma)[stressSize<dim>], double bulk, double shear)
+{
+    const double p = (sigma[0] + sigma[1] + sigma[2]) / 3;
+    double ss = 0;
+    for (int k = 0; k < 3; ++k)
+        ss += (sigma[k] - p) * (sigma[k] - p);
+    for (int k = 3; k < stressSize<dim>; ++k)
+        ss += 2 * sigma[k] * sigma[k];
+    return p * p / (2 * bulk) + ss / (4 * shear);
+}
+
+/// The laws there are: name and one line of help.
+const std::vector<dictionary::Choice>& lawCatalogue();
+
+/// Makes the law a material dictionary names (`law mohrCoulomb; E ...;`) and reads its parameters.
+/// Throws InputError for unknown names, missing or impossible values.
+std::unique_ptr<Law> makeLaw(const dictionary::Dictionary& material);
+} // namespace mpm::constitutive

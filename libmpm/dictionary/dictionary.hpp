@@ -1,0 +1,150 @@
+#pragma once
+/// Dictionaries in OpenFOAM's syntax, read once, asked by typed entries, every mistake reported with file:line.
+///
+///     // materialProperties
+///     soil
+///     {
+///         law             mohrCoulomb;
+///         E               [1 -1 -2 0 0 0 0] 20e6;   // dimensions are optional and checked when given
+///         frictionAngle   42;
+///         origin          (0 0 0);
+///     }
+///     #include "other"                              // stays inside the case folder and etc
+///     copy $soil;  E $soil.E;                       // macros
+///
+/// A word nobody reads is an error: rejectUnread() after everything was asked. It knows the allowed words because every
+/// question (get, choose, subDict, found) leaves its word in the dictionary's schema.
+#include "base/error.hpp"
+#include "base/types.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpm::dictionary
+{
+/// Exponents of [kg m s K mol A cd].
+using Dimensions = std::array<double, 7>;
+
+namespace unit
+{
+inline constexpr Dimensions none{};
+inline constexpr Dimensions length{0, 1, 0};
+inline constexpr Dimensions time{0, 0, 1};
+inline constexpr Dimensions rate{0, 0, -1};
+inline constexpr Dimensions velocity{0, 1, -1};
+inline constexpr Dimensions acceleration{0, 1, -2};
+inline constexpr Dimensions density{1, -3, 0};
+inline constexpr Dimensions pressure{1, -1, -2};
+} // namespace unit
+
+/// Interval of allowed values; an open end excludes its value.
+struct Bound
+{
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool lowOpen = false;
+    bool highOpen = false;
+
+    bool contains(double value) const;
+    std::string text() const; ///< "> 0", ">= 0", "in [0, 0.5)"
+
+    static Bound any() { return {}; }
+    static Bound positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
+    static Bound nonNegative() { return {0, std::numeric_limits<double>::infinity(), false, false}; }
+    static Bound atLeast(double low) { return {low, std::numeric_limits<double>::infinity(), false, false}; }
+    static Bound between(double low, double high) { return {low, high, false, false}; } ///< closed
+    static Bound open(double low, double high) { return {low, high, true, true}; }
+    static Bound rightOpen(double low, double high) { return {low, high, false, true}; }
+};
+
+/// What is asked of a dictionary: the word, what it means, its unit, its bound (of every component), its default.
+/// Without a default the entry is required.
+template <class T>
+struct Entry
+{
+    std::string word;
+    std::string help;
+    Dimensions dimensions = unit::none;
+    Bound bound = {};
+    std::optional<T> fallback = std::nullopt;
+};
+
+/// One name of a catalogue (laws, shapes, wall types ...) and what it is, for messages and -help.
+struct Choice
+{
+    std::string name;
+    std::string help;
+};
+
+/// A question that was asked, kept for -help and for the list of allowed words.
+struct Asked
+{
+    std::string word, type, help, unitText, boundText, defaultText;
+};
+
+class Dictionary
+{
+  public:
+    /// Reads a file. #include may reach files below `root` (default: the file's folder's parent, which is the case
+    /// folder) and below the project's etc folder, nothing else.
+    /// Throws InputError: unreadable file, missing ';', unbalanced braces, unknown directive or macro, word given twice.
+    static Dictionary readFile(const std::filesystem::path& file, const std::filesystem::path& root = {});
+    /// Reads text; `name` stands for the file in messages.
+    static Dictionary fromText(const std::string& text, const std::string& name = "text");
+
+    Dictionary();
+    ~Dictionary();
+    Dictionary(Dictionary&&) noexcept;
+    Dictionary& operator=(Dictionary&&) noexcept;
+
+    /// Where the dictionary (or one of its entries) stands.
+    Location where() const;
+    Location where(const std::string& word) const;
+
+    /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
+    /// yes/no, true/false), std::string (a word or a quoted text), Vector3 (three numbers), std::vector<double>,
+    /// std::vector<std::string>, std::vector<Vector3>.
+    template <class T>
+    T get(const Entry<T>& entry) const;
+
+    /// A name out of a catalogue; an unknown one is an error with the list and the nearest name.
+    std::string choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,
+                       const std::optional<std::string>& fallback = std::nullopt) const;
+
+    /// Is the entry or dictionary there? Asking makes the word known (not read).
+    bool found(const std::string& word) const;
+
+    /// A nested dictionary; an error if it is not there. The reference lives as long as this dictionary.
+    const Dictionary& subDict(const std::string& word, const std::string& help = "") const;
+    /// The same, or null.
+    const Dictionary* findDict(const std::string& word, const std::string& help = "") const;
+    /// Names of all nested dictionaries except FoamFile, in file order (free names: materials, walls ...).
+    std::vector<std::string> dictNames() const;
+    /// All words of plain entries, in file order.
+    std::vector<std::string> words() const;
+
+    /// Sets or replaces an entry, as a command-line override does; `where` is what messages will name.
+    void set(const std::string& word, const std::string& value, const std::string& where = "command line");
+
+    /// The text of the dictionary as it was understood: macros expanded, includes merged (provenance).
+    std::string text() const;
+
+    /// Throws InputError at the first entry that nobody read, here and in all nested dictionaries that were opened;
+    /// a nested dictionary nobody opened is itself unread. FoamFile headers are exempt.
+    void rejectUnread() const;
+
+    /// Throws InputError at an entry: "file:line: word: found ..., allowed ...".
+    [[noreturn]] void fail(const std::string& word, const std::string& found, const std::string& allowed) const;
+
+    /// Every question asked so far.
+    std::vector<Asked> schema() const;
+
+  private:
+    struct Body;
+    std::unique_ptr<Body> body_;
+};
+} // namespace mpm::dictionary

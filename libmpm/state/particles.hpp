@@ -1,0 +1,75 @@
+#pragma once
+/// The particles: a structure of arrays. Arrays of one particle field and component are contiguous ("columns") and
+/// padded to a whole number of chunks, so that kernels may touch all 64 lanes of the last chunk.
+///
+/// The padding lanes hold a copy of the last particle with mass and volume zero; padLastChunk() renews them.
+#include "base/alignedVector.hpp"
+#include "base/types.hpp"
+
+#include <string>
+#include <vector>
+
+namespace mpm::state
+{
+template <class T>
+using Column = AlignedVector<T>;
+
+struct Particles
+{
+    explicit Particles(int dimension = 2);
+
+    int dim = 2;
+
+    std::array<Column<double>, 3> x;      ///< position of the centre [m]
+    std::array<Column<double>, 3> v;      ///< velocity [m/s]
+    std::array<Column<double>, 6> stress; ///< Cauchy stress, stressNames order [Pa]
+    std::array<Column<double>, 9> F;      ///< deformation gradient, dim x dim row by row [-]
+    /// Lengths of the initial edge vectors [m]. The seeding lattice follows the axes, so edge k starts as
+    /// l0_k = length0[k] e_k; the deformed edge is F l0_k = length0[k] times column k of F. Splitting halves it.
+    std::array<Column<double>, 3> length0;
+    Column<double> mass;    ///< [kg], per metre in 2D
+    Column<double> volume0; ///< initial volume [m^3], m^2 in 2D
+    Column<double> volume;  ///< current volume V = V0 det F
+    Column<std::int64_t> id;       ///< immutable; children of a split get new ids, the first child keeps its parent's
+    Column<std::int64_t> sortKey;  ///< cell key at the last sort; (sortKey, id) is the order in memory
+    Column<std::int32_t> material; ///< index into State::materials
+    Column<std::int32_t> generation; ///< number of splits behind the particle
+
+    Index size() const { return size_; }
+    Index chunks() const { return (size_ + lanes - 1) / lanes; }
+
+    /// New particles are zero, with F = I.
+    void resize(Index n);
+    void padLastChunk();
+    /// Reorders all columns: new[i] = old[order[i]].
+    void permute(const std::vector<Index>& order);
+    /// Appends a copy of particle i and returns its index.
+    Index appendCopy(Index i);
+
+    /// Calls visit(column) for every column in use (all element types).
+    template <class Visitor>
+    void forEachColumn(Visitor&& visit)
+    {
+        for (int k = 0; k < dim; ++k)
+        {
+            visit(x[k]);
+            visit(v[k]);
+            visit(length0[k]);
+        }
+        for (int k = 0; k < stressComponents(dim); ++k)
+            visit(stress[k]);
+        for (int k = 0; k < dim * dim; ++k)
+            visit(F[k]);
+        visit(mass);
+        visit(volume0);
+        visit(volume);
+        visit(id);
+        visit(sortKey);
+        visit(material);
+        visit(generation);
+    }
+
+  private:
+    Index size_ = 0;
+};
+} // namespace mpm::state

@@ -1,0 +1,62 @@
+#pragma once
+/// Everything a run needs to go on, and nothing else: what state.h5 holds.
+#include "state/gridBox.hpp"
+#include "state/particles.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mpm::state
+{
+/// Energies [J, per metre in 2D] and counts summed since the start of the run. Positive losses left the body.
+struct Ledger
+{
+    double plasticDissipation = 0; ///< sum V sigma_mid : dEps_p
+    double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
+    double wallNormalLoss = 0;     ///< work of normal wall forces taken from the body (impact on walls)
+    double splitMergeLoss = 0;     ///< kinetic and elastic energy lost by splitting and merging
+    double transferLoss = 0;       ///< kinetic energy lost between particles and grid, both ways
+    double gravityWork = 0;        ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;       ///< sum dt f_tau . (v_i + v*)/2
+    double apexVolume = 0;         ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double initialEnergy = 0;      ///< kinetic + strain energy at the start
+    Vector3 wallImpulse{};         ///< impulse of the walls on the body [N s]
+    Vector3 gravityImpulse{};      ///< impulse of gravity [N s]
+    Vector3 tractionImpulse{};     ///< impulse of tractions [N s]
+    Vector3 initialMomentum{};     ///< momentum at the start [N s]
+    double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
+    Index apexReturns = 0;         ///< particle returns to the apex
+    Index splits = 0;              ///< particles split
+    Index splitsPutOff = 0;        ///< splits put off at a wall
+};
+
+/// A named part of the body's surface, carried with the material: segments in 2D, triangles in 3D. Element e has its
+/// centre, and edge vectors (one in 2D, two in 3D) that follow the motion like those of particles.
+/// Its outward normal times area is (e_y, -e_x) in 2D and cross(e1, e2)/2 in 3D.
+struct SurfacePatch
+{
+    std::string name;
+    std::array<Column<double>, 3> centre; ///< [m]
+    std::array<Column<double>, 6> edges;  ///< dim components of edge 1, then of edge 2 (3D) [m]
+    Index size() const { return Index(centre[0].size()); }
+};
+
+struct State
+{
+    explicit State(int dim = 2) : particles(dim) { grid.dim = dim; }
+
+    double time = 0;    ///< [s]
+    Index step = 0;     ///< steps done since the start
+    double deltaT = 0;  ///< last time step used [s]; 0 before the first
+    Index slabs = 0;    ///< number of particle slabs sums are ordered by; 0: not chosen yet
+    Vector3 seedSpacing{};     ///< lattice spacing of the seeding [m]
+    Index nextId = 0;   ///< the next unused particle id
+    GridBox grid;
+    Particles particles;
+    std::vector<std::string> materials; ///< names, by Particles::material
+    std::vector<SurfacePatch> patches;
+    Ledger ledger;
+    std::map<std::string, std::string> provenance; ///< version, compiler, instruction set, dictionaries
+};
+} // namespace mpm::state
