@@ -14,13 +14,16 @@ struct Ledger
 {
     double plasticDissipation = 0; ///< sum V sigma_mid : dEps_p
     double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
-    double wallNormalLoss = 0;     ///< work of normal wall forces taken from the body (impact on walls)
+    double wallLoss = 0;           ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
     double splitMergeLoss = 0;     ///< kinetic and elastic energy lost by splitting and merging
     double transferLoss = 0;       ///< kinetic energy lost between particles and grid, both ways
     double gravityWork = 0;        ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;       ///< sum dt f_tau . (v_i + v*)/2
     double apexVolume = 0;         ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double initialEnergy = 0;      ///< kinetic + strain energy at the start
+    double bodyForceWork = 0;      ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0;      ///< of the particles, now
+    double initialKineticEnergy = 0;
+    double initialStrainEnergy = 0;
     Vector3 wallImpulse{};         ///< impulse of the walls on the body [N s]
     Vector3 gravityImpulse{};      ///< impulse of gravity [N s]
     Vector3 tractionImpulse{};     ///< impulse of tractions [N s]
@@ -29,6 +32,9 @@ struct Ledger
     Index apexReturns = 0;         ///< particle returns to the apex
     Index splits = 0;              ///< particles split
     Index splitsPutOff = 0;        ///< splits put off at a wall
+    Index splitsCapped = 0;        ///< splits refused by the caps on size and count
+    Index wallContacts = 0;        ///< nodes and steps at which a friction wall pressed
+    bool started = false;          ///< initial values are booked
 };
 
 /// A named part of the body's surface, carried with the material: segments in 2D, triangles in 3D. Element e has its

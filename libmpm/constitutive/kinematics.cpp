@@ -1,0 +1,212 @@
+#include "constitutive/kinematics.hpp"
+
+#include <cmath>
+
+namespace mpm::constitutive
+{
+namespace
+{
+/// e^s - 1 by its series; 1e-16 for |s| <= 1/2.
+inline double expMinusOne(double s)
+{
+    double sum = 1;
+    for (int k = 13; k >= 2; --k)
+        sum = 1 + s * sum * (1.0 / k);
+    return s * sum;
+}
+
+inline void multiply3(const double (&a)[9], const double (&b)[9], double (&out)[9])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+}
+
+inline double determinant3(const double (&m)[9])
+{
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+} // namespace
+
+// exp(A) = e^s (cosh(q) I + sinh(q)/q A'), s = tr A/2, A' = A - s I, q^2 = -det A'; both functions are entire in q^2.
+void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double xx = dt * L[0][l], xy = dt * L[1][l], yx = dt * L[2][l], yy = dt * L[3][l];
+        const double s = 0.5 * (xx + yy), d = 0.5 * (xx - yy);
+        const double z = d * d + xy * yx;
+        double c = 1, sh = 1;
+        for (int k = 7; k >= 1; --k)
+        {
+            c = 1 + z * c * (1.0 / ((2 * k - 1) * (2 * k)));
+            sh = 1 + z * sh * (1.0 / ((2 * k) * (2 * k + 1)));
+        }
+        const double e = 1 + expMinusOne(s);
+        const double a = e * (c + sh * d), b = e * sh * xy, g = e * sh * yx, h = e * (c - sh * d);
+        const double f0 = F[0][l], f1 = F[1][l], f2 = F[2][l], f3 = F[3][l];
+        F[0][l] = a * f0 + b * f2;
+        F[1][l] = a * f1 + b * f3;
+        F[2][l] = g * f0 + h * f2;
+        F[3][l] = g * f1 + h * f3;
+    }
+}
+
+// Taylor series to degree 6 of exp(A/2), squared; a last scalar factor makes det exp(A) = exp(tr A) to round-off.
+void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        double a[9], sum[9], product[9], f[9];
+        for (int k = 0; k < 9; ++k)
+        {
+            a[k] = 0.5 * dt * L[k][l];
+            sum[k] = a[k] * (1.0 / 6);
+            f[k] = F[k][l];
+        }
+        for (int k = 0; k < 9; k += 4)
+            sum[k] += 1;
+        for (int degree = 5; degree >= 1; --degree)
+        {
+            multiply3(a, sum, product);
+            for (int k = 0; k < 9; ++k)
+                sum[k] = product[k] * (1.0 / degree);
+            for (int k = 0; k < 9; k += 4)
+                sum[k] += 1;
+        }
+        multiply3(sum, sum, product);
+        const double volume = 1 + expMinusOne(2 * (a[0] + a[4] + a[8]));
+        const double factor = 1 + (volume / determinant3(product) - 1) * (1.0 / 3);
+        multiply3(product, f, sum);
+        for (int k = 0; k < 9; ++k)
+            F[k][l] = factor * sum[k];
+    }
+}
+
+void rotateStress(const TensorLanes<2>& L, double dt, StressLanes<2>& stress)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double q = 0.25 * dt * (L[2][l] - L[1][l]);
+        const double over = 1 / (1 + q * q);
+        const double c = (1 - q * q) * over, s = 2 * q * over;
+        const double xx = stress[0][l], yy = stress[1][l], xy = stress[3][l];
+        const double cc = c * c, ss = s * s, cs = c * s;
+        stress[0][l] = cc * xx - 2 * cs * xy + ss * yy;
+        stress[1][l] = ss * xx + 2 * cs * xy + cc * yy;
+        stress[3][l] = cs * (xx - yy) + (cc - ss) * xy;
+    }
+}
+
+// Cayley: dR = I + 2/(1 + |q|^2) (Q + Q^2), Q = [q]x, q = dt omega/2, omega the axial vector of W.
+void rotateStress(const TensorLanes<3>& L, double dt, StressLanes<3>& stress)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double q0 = 0.25 * dt * (L[7][l] - L[5][l]);
+        const double q1 = 0.25 * dt * (L[2][l] - L[6][l]);
+        const double q2 = 0.25 * dt * (L[3][l] - L[1][l]);
+        const double b = 2 / (1 + q0 * q0 + q1 * q1 + q2 * q2);
+        const double R[9] = {1 - b * (q1 * q1 + q2 * q2), b * (q0 * q1 - q2),           b * (q0 * q2 + q1),
+                             b * (q0 * q1 + q2),          1 - b * (q0 * q0 + q2 * q2),  b * (q1 * q2 - q0),
+                             b * (q0 * q2 - q1),          b * (q1 * q2 + q0),           1 - b * (q0 * q0 + q1 * q1)};
+        const double xx = stress[0][l], yy = stress[1][l], zz = stress[2][l];
+        const double xy = stress[3][l], yz = stress[4][l], zx = stress[5][l];
+        const double S[9] = {xx, xy, zx, xy, yy, yz, zx, yz, zz};
+        double T[9];
+        multiply3(R, S, T);
+        stress[0][l] = T[0] * R[0] + T[1] * R[1] + T[2] * R[2];
+        stress[1][l] = T[3] * R[3] + T[4] * R[4] + T[5] * R[5];
+        stress[2][l] = T[6] * R[6] + T[7] * R[7] + T[8] * R[8];
+        stress[3][l] = T[0] * R[3] + T[1] * R[4] + T[2] * R[5];
+        stress[4][l] = T[3] * R[6] + T[4] * R[7] + T[5] * R[8];
+        stress[5][l] = T[6] * R[0] + T[7] * R[1] + T[8] * R[2];
+    }
+}
+
+void strainIncrement(const TensorLanes<2>& L, double dt, StressLanes<2>& dStrain)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        dStrain[0][l] = dt * L[0][l];
+        dStrain[1][l] = dt * L[3][l];
+        dStrain[2][l] = 0;
+        dStrain[3][l] = 0.5 * dt * (L[1][l] + L[2][l]);
+    }
+}
+
+void strainIncrement(const TensorLanes<3>& L, double dt, StressLanes<3>& dStrain)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        dStrain[0][l] = dt * L[0][l];
+        dStrain[1][l] = dt * L[4][l];
+        dStrain[2][l] = dt * L[8][l];
+        dStrain[3][l] = 0.5 * dt * (L[1][l] + L[3][l]);
+        dStrain[4][l] = 0.5 * dt * (L[5][l] + L[7][l]);
+        dStrain[5][l] = 0.5 * dt * (L[2][l] + L[6][l]);
+    }
+}
+
+void determinant(const TensorLanes<2>& F, double (&J)[lanes])
+{
+    for (int l = 0; l < lanes; ++l)
+        J[l] = F[0][l] * F[3][l] - F[1][l] * F[2][l];
+}
+
+void determinant(const TensorLanes<3>& F, double (&J)[lanes])
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        double f[9];
+        for (int k = 0; k < 9; ++k)
+            f[k] = F[k][l];
+        J[l] = determinant3(f);
+    }
+}
+
+// U = (C + J I)/sqrt(tr C + 2 J), C = F^T F (Hoger & Carlson 1984).
+void stretchDiagonal(const TensorLanes<2>& F, double (&U)[2][lanes])
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double cxx = F[0][l] * F[0][l] + F[2][l] * F[2][l];
+        const double cyy = F[1][l] * F[1][l] + F[3][l] * F[3][l];
+        const double J = F[0][l] * F[3][l] - F[1][l] * F[2][l];
+        const double over = 1 / std::sqrt(cxx + cyy + 2 * J);
+        U[0][l] = (cxx + J) * over;
+        U[1][l] = (cyy + J) * over;
+    }
+}
+
+// R by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (Higham 1986); nine steps converge to round-off
+// for stretch ratios up to 1e6. Then U = R^T F.
+void stretchDiagonal(const TensorLanes<3>& F, double (&U)[3][lanes])
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        double r[9], f[9];
+        for (int k = 0; k < 9; ++k)
+            r[k] = f[k] = F[k][l];
+        for (int step = 0; step < 9; ++step)
+        {
+            const double cof[9] = {r[4] * r[8] - r[5] * r[7], r[5] * r[6] - r[3] * r[8], r[3] * r[7] - r[4] * r[6],
+                                   r[2] * r[7] - r[1] * r[8], r[0] * r[8] - r[2] * r[6], r[1] * r[6] - r[0] * r[7],
+                                   r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3]};
+            const double over = 1 / (r[0] * cof[0] + r[1] * cof[1] + r[2] * cof[2]);
+            double rr = 0, ii = 0;
+            for (int k = 0; k < 9; ++k)
+            {
+                rr += r[k] * r[k];
+                ii += cof[k] * cof[k] * over * over;
+            }
+            const double g = std::sqrt(std::sqrt(ii / rr));
+            const double plain = 0.5 * g, inverse = 0.5 * over / g;
+            for (int k = 0; k < 9; ++k)
+                r[k] = plain * r[k] + inverse * cof[k];
+        }
+        for (int k = 0; k < 3; ++k)
+            U[k][l] = r[k] * f[k] + r[3 + k] * f[3 + k] + r[6 + k] * f[6 + k];
+    }
+}
+} // namespace mpm::constitutive

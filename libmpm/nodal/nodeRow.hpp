@@ -1,0 +1,124 @@
+#pragma once
+/// One row of nodes (constant j, k) while the nodal equations are solved, METHOD Eqs. 1-3 and Walls.
+///
+/// Before: record lanes hold mass, momentum, force. The row turns them into velocity before (v_i) and trial velocity
+/// u = v_i + dt f/m; effects then change u; at the end u is v* and the acceleration (v* - v_i)/dt.
+#include "base/record.hpp"
+#include "base/types.hpp"
+
+#include <vector>
+
+namespace mpm::nodal
+{
+/// Energies and impulses of one step, summed over nodes. Per metre in 2D.
+struct NodeSums
+{
+    double kineticBefore = 0;   ///< sum m v_i^2/2 [J]
+    double kineticAfter = 0;    ///< sum m v*^2/2 [J]
+    double gravityWork = 0;     ///< sum dt m b . (v_i + v*)/2 [J]
+    double tractionWork = 0;    ///< sum dt f_tau . (v_i + v*)/2 [J]
+    double frictionLoss = 0;    ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double wallLoss = 0;        ///< the same for every other wall impulse J [J]
+    Index contacts = 0;         ///< nodes at which a friction wall pressed
+    Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
+
+    NodeSums& operator+=(const NodeSums& o)
+    {
+        kineticBefore += o.kineticBefore;
+        kineticAfter += o.kineticAfter;
+        gravityWork += o.gravityWork;
+        tractionWork += o.tractionWork;
+        frictionLoss += o.frictionLoss;
+        wallLoss += o.wallLoss;
+        contacts += o.contacts;
+        for (int a = 0; a < 3; ++a)
+        {
+            gravityImpulse[a] += o.gravityImpulse[a];
+            wallImpulse[a] += o.wallImpulse[a];
+        }
+        return *this;
+    }
+};
+
+template <int dim>
+struct NodeRow
+{
+    Index begin = 0, end = 0;          ///< lattice indices along x
+    Index j = 0, k = 0;                ///< lattice indices of the row
+    Record* node = nullptr;            ///< node[i], begin <= i < end
+    double dt = 0;
+    double smallestMass = 0;           ///< nodes lighter than this carry nothing
+    NodeSums* sums = nullptr;
+    /// Wall impulses per node of the row, friction and other, for the work split; empty while no wall touched it.
+    std::vector<Vector3>* frictionImpulse = nullptr;
+    std::vector<Vector3>* normalImpulse = nullptr;
+
+    static constexpr int velocity = 1;    ///< first lane of v_i
+    static constexpr int trial = 1 + dim; ///< first lane of f, then u
+
+    bool carries(Index i) const { return node[i][0] > smallestMass; }
+};
+
+/// An effect that acts on nodes: in the order of the dictionary, on every row.
+template <int dim>
+class NodeEffect
+{
+  public:
+    virtual ~NodeEffect() = default;
+    /// Changes the trial velocity u = v_i + dt f/m and books what it did.
+    virtual void apply(NodeRow<dim>& row) const = 0;
+    /// Books work and impulse once u is final.
+    virtual void book(NodeRow<dim>&) const {}
+    /// Makes a velocity that strains are taken from obey the effect (walls); lanes `trial`, nothing is booked.
+    virtual void constrain(NodeRow<dim>&) const {}
+};
+
+/// f -> u for a row; p -> v_i.
+template <int dim>
+void beginRow(NodeRow<dim>& row)
+{
+    for (Index i = row.begin; i < row.end; ++i)
+    {
+        Record& r = row.node[i];
+        const double inverse = row.carries(i) ? 1 / r[0] : 0;
+        for (int a = 0; a < dim; ++a)
+        {
+            r[1 + a] *= inverse;
+            r[1 + dim + a] = r[1 + a] + row.dt * inverse * r[1 + dim + a];
+        }
+    }
+}
+
+/// Books kinetic energies and wall work, then (v_i, u) -> (v*, a).
+template <int dim>
+void endRow(NodeRow<dim>& row, double inverseDt)
+{
+    const bool walls = !row.normalImpulse->empty();
+    double before = 0, after = 0;
+    for (Index i = row.begin; i < row.end; ++i)
+    {
+        Record& r = row.node[i];
+        double vv = 0, uu = 0;
+        for (int a = 0; a < dim; ++a)
+        {
+            const double v = r[1 + a], u = r[1 + dim + a];
+            vv += v * v;
+            uu += u * u;
+            if (walls)
+            {
+                const Vector3& jn = (*row.normalImpulse)[std::size_t(i - row.begin)];
+                const Vector3& jt = (*row.frictionImpulse)[std::size_t(i - row.begin)];
+                row.sums->wallLoss -= jn[a] * 0.5 * (v + u);
+                row.sums->frictionLoss -= jt[a] * 0.5 * (v + u);
+                row.sums->wallImpulse[a] += jn[a] + jt[a];
+            }
+            r[1 + a] = u;
+            r[1 + dim + a] = (u - v) * inverseDt;
+        }
+        before += r[0] * vv;
+        after += r[0] * uu;
+    }
+    row.sums->kineticBefore += 0.5 * before;
+    row.sums->kineticAfter += 0.5 * after;
+}
+} // namespace mpm::nodal

@@ -1,0 +1,159 @@
+#include "nodal/traction.hpp"
+
+#include "base/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace mpm::nodal
+{
+namespace
+{
+/// Hat functions of the 2^dim nodes around an element's centre, renormalised over nodes with mass.
+template <int dim>
+struct PointWeights
+{
+    static constexpr int count = 1 << dim;
+    Index node[count];
+    double N[count];
+    double G[count][dim];
+
+    PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::NodeWindow& window,
+                 double smallestMass)
+    {
+        Index base[3] = {0, 0, 0};
+        double t[3] = {0, 0, 0};
+        for (int a = 0; a < dim; ++a)
+        {
+            const double s = (patch.centre[a][std::size_t(e)] - grid.origin[a]) / grid.h;
+            base[a] = Index(std::floor(s));
+            t[a] = s - std::floor(s);
+        }
+        double total = 0, slope[dim] = {};
+        for (int c = 0; c < count; ++c)
+        {
+            Index index[3] = {base[0], base[1], base[2]};
+            N[c] = 1;
+            for (int a = 0; a < dim; ++a)
+            {
+                const bool up = c >> a & 1;
+                index[a] += up;
+                N[c] *= up ? t[a] : 1 - t[a];
+                G[c][a] = (up ? 1 : -1) / grid.h;
+                for (int b = 0; b < dim; ++b)
+                    if (b != a)
+                        G[c][a] *= (c >> b & 1) ? t[b] : 1 - t[b];
+            }
+            bool inside = true;
+            for (int a = 0; a < dim; ++a)
+                inside = inside && index[a] >= window.lo[a] && index[a] < window.lo[a] + window.n[a];
+            node[c] = inside ? window.offset(index[0], index[1], index[2]) : -1;
+            if (node[c] < 0 || !(window.nodes[std::size_t(node[c])][0] > smallestMass))
+            {
+                node[c] = -1;
+                continue;
+            }
+            total += N[c];
+            for (int a = 0; a < dim; ++a)
+                slope[a] += G[c][a];
+        }
+        if (!(total > 0))
+            throw StepError(fmt::format("surface element {} of '{}' at ({:g}, {:g}, {:g}) lies where no particle is", e,
+                                        patch.name, patch.centre[0][std::size_t(e)], patch.centre[1][std::size_t(e)],
+                                        dim == 3 ? patch.centre[2][std::size_t(e)] : 0.0));
+        for (int c = 0; c < count; ++c)
+        {
+            for (int a = 0; a < dim; ++a)
+                G[c][a] = (G[c][a] - N[c] * slope[a] / total) / total;
+            N[c] /= total;
+        }
+    }
+};
+
+/// Outward normal times area.
+template <int dim>
+Vector3 areaVector(const state::SurfacePatch& p, Index e)
+{
+    const auto edge = [&](int k) { return p.edges[k][std::size_t(e)]; };
+    if constexpr (dim == 2)
+        return {edge(1), -edge(0), 0};
+    return {0.5 * (edge(1) * edge(5) - edge(2) * edge(4)), 0.5 * (edge(2) * edge(3) - edge(0) * edge(5)),
+            0.5 * (edge(0) * edge(4) - edge(1) * edge(3))};
+}
+} // namespace
+
+template <int dim>
+void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::NodeWindow& window,
+                            double smallestMass)
+{
+    added_.clear();
+    for (Index e = 0; e < patch.size(); ++e)
+    {
+        const Vector3 area = areaVector<dim>(patch, e);
+        const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+        const PointWeights<dim> w(patch, e, grid, window, smallestMass);
+        for (int c = 0; c < w.count; ++c)
+        {
+            if (w.node[c] < 0)
+                continue;
+            Added add{w.node[c], {}};
+            for (int a = 0; a < dim; ++a)
+            {
+                add.force[a] = w.N[c] * (load_.pressure ? -load_.magnitude * area[a] : load_.traction[a] * size);
+                window.nodes[std::size_t(add.node)][1 + dim + a] += add.force[a];
+            }
+            added_.push_back(add);
+        }
+    }
+}
+
+template <int dim>
+void Traction<dim>::book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const
+{
+    for (const auto& add : added_)
+    {
+        const Record& r = window.nodes[std::size_t(add.node)];
+        for (int a = 0; a < dim; ++a)
+        {
+            work += dt * add.force[a] * (r[1 + a] - 0.5 * dt * r[1 + dim + a]);
+            impulse[a] += dt * add.force[a];
+        }
+    }
+}
+
+template <int dim>
+void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::NodeWindow& window,
+               double smallestMass, double dt)
+{
+    for (Index e = 0; e < patch.size(); ++e)
+    {
+        const PointWeights<dim> w(patch, e, grid, window, smallestMass);
+        double v[dim] = {}, L[dim][dim] = {};
+        for (int c = 0; c < w.count; ++c)
+            if (w.node[c] >= 0)
+                for (int a = 0; a < dim; ++a)
+                {
+                    const double va = window.nodes[std::size_t(w.node[c])][1 + a];
+                    v[a] += w.N[c] * va;
+                    for (int b = 0; b < dim; ++b)
+                        L[a][b] += va * w.G[c][b];
+                }
+        for (int a = 0; a < dim; ++a)
+            patch.centre[a][std::size_t(e)] += dt * v[a];
+        for (int k = 0; k < dim - 1; ++k)
+        {
+            double change[dim] = {};
+            for (int a = 0; a < dim; ++a)
+                for (int b = 0; b < dim; ++b)
+                    change[a] += dt * L[a][b] * patch.edges[k * dim + b][std::size_t(e)];
+            for (int a = 0; a < dim; ++a)
+                patch.edges[k * dim + a][std::size_t(e)] += change[a];
+        }
+    }
+}
+
+template class Traction<2>;
+template class Traction<3>;
+template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+} // namespace mpm::nodal

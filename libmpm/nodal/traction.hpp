@@ -1,0 +1,58 @@
+#pragma once
+/// Surface load on a named boundary, the tau term of METHOD Eq. 3: f_i += int N_i tau dS, one point per surface element
+/// at its centre, hat functions N_i. Elements are carried with the material: centre by v*, edges by its gradient, so that
+/// the loaded area follows the deformation.
+///
+///     top { type traction; value (0 -1e3 0); }   // constant/boundaryConditions, Pa of current area, any direction
+///     top { type pressure; value 1e3; }          // Pa, along the inward normal of the deformed element
+///
+/// Where a hat reaches a node without mass (linear shape near a surface), the element's weights are renormalised over the
+/// nodes that carry mass, so no load is lost; an element with no such node is a StepError.
+/// Verified in tests/unit/traction.cpp.
+#include "state/gridBox.hpp"
+#include "state/nodeGrid.hpp"
+#include "state/state.hpp"
+
+namespace mpm::nodal
+{
+struct Load
+{
+    std::string patch;
+    bool pressure = false;
+    Vector3 traction{};   ///< [Pa], if not a pressure
+    double magnitude = 0; ///< [Pa], if a pressure
+};
+
+template <int dim>
+class Traction
+{
+  public:
+    explicit Traction(const Load& load) : load_(load) {}
+
+    /// Adds the load to the force lanes of the window (mass lanes summed, smallestMass as in NodeRow).
+    void scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::NodeWindow& window,
+                 double smallestMass);
+    /// After the nodal equations (lanes v*, a): work sum dt f . (v_i + v*)/2 [J] and impulse [N s] of the load.
+    void book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const;
+    const Load& load() const { return load_; }
+
+  private:
+    struct Added
+    {
+        Index node;
+        Vector3 force;
+    };
+    Load load_;
+    std::vector<Added> added_;
+};
+
+/// Moves a patch by the velocities v* in the window's lanes 1..dim.
+template <int dim>
+void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::NodeWindow& window,
+               double smallestMass, double dt);
+
+extern template class Traction<2>;
+extern template class Traction<3>;
+extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+} // namespace mpm::nodal

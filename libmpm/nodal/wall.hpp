@@ -1,0 +1,61 @@
+#pragma once
+/// Plane walls normal to an axis, METHOD Walls: at nodes on and behind the wall, outward normal n (out of the soil),
+/// u = v_i + dt a_i.
+///     fixed     u = 0
+///     roller    u.n = 0, tangentially free
+///     friction  u_n = 0 and u_t <- u_t max(0, 1 - mu (u.n)/|u_t|) where u.n > 0
+/// With separation the wall only pushes (acts where u.n > 0); without, it also holds. Friction walls separate, fixed and
+/// roller walls hold, unless the dictionary says otherwise. A wall that holds rubs with its push alone.
+///
+///     base                         // constant/boundaryConditions: a physical name of the geometry, or any name with
+///     {                            // a plane
+///         type        friction;    // fixed | roller | friction
+///         mu          0.6;         // friction only, >= 0
+///         separation  on;
+///         plane { normal (0 -1 0); position 0; }   // default: the named boundary's own plane
+///     }
+///
+/// The wall must lie on a plane of nodes (an error names the nearest two). Books impulse and work, split into friction
+/// and the rest. Verified in tests/unit/walls.cpp.
+#include "nodal/nodeRow.hpp"
+
+#include <string>
+
+namespace mpm::nodal
+{
+enum class WallType
+{
+    fixed,
+    roller,
+    friction
+};
+
+struct Wall
+{
+    std::string name;
+    WallType type = WallType::roller;
+    int axis = 1;            ///< 0, 1, 2: the axis it is normal to
+    int side = -1;           ///< -1: outward normal along -axis (a floor), +1: along +axis
+    Index plane = 0;         ///< lattice index of the wall's plane of nodes
+    double mu = 0;
+    bool separation = false;
+};
+
+template <int dim>
+class WallEffect : public NodeEffect<dim>
+{
+  public:
+    explicit WallEffect(const Wall& wall) : wall_(wall) {}
+
+    void apply(NodeRow<dim>& row) const override;
+    void constrain(NodeRow<dim>& row) const override;
+    const Wall& wall() const { return wall_; }
+
+  private:
+    std::pair<Index, Index> range(const NodeRow<dim>& row) const;
+    Wall wall_;
+};
+
+extern template class WallEffect<2>;
+extern template class WallEffect<3>;
+} // namespace mpm::nodal

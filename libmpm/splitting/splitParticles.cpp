@@ -1,0 +1,155 @@
+#include "splitting/splitParticles.hpp"
+
+#include <cmath>
+
+namespace mpm::splitting
+{
+namespace
+{
+struct Edges
+{
+    double vector[3][3] = {}; ///< vector[k] = F l0_k
+    bool cut[3] = {};
+    int cuts = 0;
+};
+
+Edges deformedEdges(const state::State& s, const Rule& rule, std::size_t i)
+{
+    const auto& p = s.particles;
+    Edges e;
+    bool any = false;
+    for (int k = 0; k < p.dim; ++k)
+    {
+        double square = 0;
+        for (int a = 0; a < p.dim; ++a)
+        {
+            e.vector[k][a] = p.F[a * p.dim + k][i] * p.length0[k][i];
+            square += e.vector[k][a] * e.vector[k][a];
+        }
+        e.cut[k] = std::sqrt(square) > rule.threshold * s.seedSpacing[k];
+        any = any || e.cut[k];
+    }
+    for (int k = 0; k < p.dim; ++k)
+    {
+        e.cut[k] = rule.mode == Mode::fourWay ? any : e.cut[k];
+        e.cuts += e.cut[k];
+    }
+    return e;
+}
+
+/// Largest common factor of the offsets for which no child's domain crosses a barrier.
+double offsetFactor(const state::Particles& p, const std::vector<Barrier>& barriers, const Edges& e, std::size_t i)
+{
+    double factor = 1;
+    for (const auto& wall : barriers)
+    {
+        double reach = 0, extent = 0;
+        for (int k = 0; k < p.dim; ++k)
+        {
+            const double along = std::abs(e.vector[k][wall.axis]);
+            reach += e.cut[k] ? 0.25 * along : 0;
+            extent += (e.cut[k] ? 0.25 : 0.5) * along;
+        }
+        const double distance = -wall.side * (p.x[wall.axis][i] - wall.position);
+        if (distance - reach - extent < 0 && reach > 0)
+            factor = std::min(factor, (distance - extent) / reach);
+    }
+    return factor;
+}
+
+/// Moment of momentum m x v (the z component in 2D) of one particle.
+Vector3 angularMomentum(const state::Particles& p, std::size_t i)
+{
+    const double x = p.x[0][i], y = p.x[1][i], z = p.dim == 3 ? p.x[2][i] : 0;
+    const double u = p.v[0][i], v = p.v[1][i], w = p.dim == 3 ? p.v[2][i] : 0, m = p.mass[i];
+    return {m * (y * w - z * v), m * (z * u - x * w), m * (x * v - y * u)};
+}
+
+double kineticEnergy(const state::Particles& p, std::size_t i)
+{
+    double vv = 0;
+    for (int a = 0; a < p.dim; ++a)
+        vv += p.v[a][i] * p.v[a][i];
+    return 0.5 * p.mass[i] * vv;
+}
+
+/// Replaces particle i by its children and returns how many were added.
+Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
+{
+    auto& p = s.particles;
+    const std::size_t parent = std::size_t(i);
+    const Vector3 before = angularMomentum(p, parent);
+    double energy = kineticEnergy(p, parent);
+    Vector3 centre{};
+    for (int a = 0; a < p.dim; ++a)
+        centre[a] = p.x[a][parent];
+    const double share = 1.0 / (1 << e.cuts);
+    p.mass[parent] *= share;
+    p.volume0[parent] *= share;
+    p.volume[parent] *= share;
+    p.generation[parent] += 1;
+    for (int k = 0; k < p.dim; ++k)
+        if (e.cut[k])
+            p.length0[k][parent] *= 0.5;
+
+    Vector3 change{-before[0], -before[1], -before[2]};
+    for (int child = 0; child < 1 << e.cuts; ++child)
+    {
+        const std::size_t c = child == 0 ? parent : std::size_t(p.appendCopy(i));
+        if (child > 0)
+            p.id[c] = s.nextId++;
+        int bit = 0;
+        Vector3 offset{};
+        for (int k = 0; k < p.dim; ++k)
+            if (e.cut[k])
+            {
+                const double sign = (child >> bit++ & 1) ? 1 : -1;
+                for (int a = 0; a < p.dim; ++a)
+                    offset[a] += sign * 0.25 * factor * e.vector[k][a];
+            }
+        for (int a = 0; a < p.dim; ++a)
+            p.x[a][c] = centre[a] + offset[a];
+        const Vector3 after = angularMomentum(p, c);
+        for (int a = 0; a < 3; ++a)
+            change[a] += after[a];
+        energy -= kineticEnergy(p, c);
+    }
+    s.ledger.splitMergeLoss += energy;
+    s.ledger.splitAngularMomentum += std::sqrt(change[0] * change[0] + change[1] * change[1] + change[2] * change[2]);
+    s.ledger.splits += 1;
+    return (Index(1) << e.cuts) - 1;
+}
+} // namespace
+
+Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers)
+{
+    Outcome outcome;
+    const Index before = state.particles.size();
+    for (Index i = 0; i < before; ++i)
+    {
+        const Edges edges = deformedEdges(state, rule, std::size_t(i));
+        if (edges.cuts == 0)
+            continue;
+        const Index children = Index(1) << edges.cuts;
+        if (state.particles.generation[std::size_t(i)] >= rule.maxGeneration ||
+            state.particles.size() + children - 1 > rule.maxParticles)
+        {
+            ++outcome.capped;
+            continue;
+        }
+        const double factor = offsetFactor(state.particles, barriers, edges, std::size_t(i));
+        if (factor < 0.1)
+        {
+            ++outcome.putOff;
+            continue;
+        }
+        outcome.added += makeChildren(state, i, edges, factor);
+        ++outcome.split;
+    }
+    state.ledger.splitsPutOff += outcome.putOff;
+    state.ledger.splitsCapped += outcome.capped;
+    if (outcome.added > 0)
+        state.particles.padLastChunk();
+    return outcome;
+}
+} // namespace mpm::splitting

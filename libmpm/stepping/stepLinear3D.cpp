@@ -1,0 +1,5 @@
+#include "shape/linear.hpp"
+#include "stepping/explicitStepper.ipp"
+
+template std::unique_ptr<mpm::stepping::Stepper>
+mpm::stepping::makeExplicitStepper<3, mpm::shape::Linear>(mpm::state::State&, const mpm::stepping::Scene&);
