@@ -18,6 +18,7 @@ struct NodeSums
     double gravityWork = 0;     ///< sum dt m b . (v_i + v*)/2 [J]
     double tractionWork = 0;    ///< sum dt f_tau . (v_i + v*)/2 [J]
     double frictionLoss = 0;    ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double forceWork = 0;       ///< sum dt f . v* over the projected forces [J]
     double wallLoss = 0;        ///< the same for every other wall impulse J [J]
     Index contacts = 0;         ///< nodes at which a friction wall pressed
     Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
@@ -30,6 +31,7 @@ struct NodeSums
         tractionWork += o.tractionWork;
         frictionLoss += o.frictionLoss;
         wallLoss += o.wallLoss;
+        forceWork += o.forceWork;
         contacts += o.contacts;
         for (int a = 0; a < 3; ++a)
         {

@@ -108,17 +108,20 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
 }
 
 template <int dim>
-void Traction<dim>::book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const
+double Traction<dim>::book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const
 {
+    double end = 0;
     for (const auto& add : added_)
     {
         const Record& r = window.nodes[std::size_t(add.node)];
         for (int a = 0; a < dim; ++a)
         {
+            end += dt * add.force[a] * r[1 + a];
             work += dt * add.force[a] * (r[1 + a] - 0.5 * dt * r[1 + dim + a]);
             impulse[a] += dt * add.force[a];
         }
     }
+    return end;
 }
 
 template <int dim>

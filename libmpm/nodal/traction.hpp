@@ -32,8 +32,9 @@ class Traction
     /// Adds the load to the force lanes of the window (mass lanes summed, smallestMass as in NodeRow).
     void scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::NodeWindow& window,
                  double smallestMass);
-    /// After the nodal equations (lanes v*, a): work sum dt f . (v_i + v*)/2 [J] and impulse [N s] of the load.
-    void book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const;
+    /// After the nodal equations (lanes v*, a): adds the work sum dt f . (v_i + v*)/2 [J] and the impulse [N s] of the
+    /// load; returns sum dt f . v*.
+    double book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const;
     const Load& load() const { return load_; }
 
   private:

@@ -16,7 +16,10 @@ struct Ledger
     double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
     double wallLoss = 0;           ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
     double splitMergeLoss = 0;     ///< kinetic and elastic energy lost by splitting and merging
-    double transferLoss = 0;       ///< kinetic energy lost between particles and grid, both ways
+    /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on the
+    /// change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
+    double transferLoss = 0;
+    double pendingForceWork = 0;   ///< sum dt f_int . v* of the last step, waiting for the strains it belongs to
     double gravityWork = 0;        ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;       ///< sum dt f_tau . (v_i + v*)/2
     double apexVolume = 0;         ///< volume dropped by apex returns beyond the flow rule [m^3]

@@ -26,7 +26,8 @@ class ExplicitStepper : public Stepper
     /// Sums over one slab; added in slab order.
     struct SlabSums
     {
-        double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0;
+        double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
+        double strainWork = 0; ///< sum V sigma : D dt with stress and volume before the update
         double smallestJacobian = 1, largestSpeedSquare = 0, maxYield = 0;
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
@@ -77,7 +78,7 @@ class ExplicitStepper : public Stepper
     std::vector<SlabSums> slabSums_;
     std::vector<nodal::NodeSums> rowSums_;
     double smallestMass_ = 0;
-    double time_ = 0; ///< at the start of the step
+    double time_ = 0;      ///< at the start of the step
     StepReport report_;
     PassTimes times_;
 };

@@ -26,6 +26,21 @@ class Clock
 };
 } // namespace detail
 
+/// sum V sigma : dEps over the lanes of a chunk.
+template <int dim>
+double workOfStrain(const constitutive::Chunk<dim>& chunk, const double* volume, int count)
+{
+    double work = 0;
+    for (int l = 0; l < count; ++l)
+    {
+        double density = 0;
+        for (int k = 0; k < stressSize<dim>; ++k)
+            density += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
+        work += volume[l] * density;
+    }
+    return work;
+}
+
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
     : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid))
@@ -259,19 +274,25 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_.common, smallestMass_);
     forEachRow([&](nodal::NodeRow<dim>& row) {
         row.dt = dt;
+        std::vector<Record> force(row.node + row.begin, row.node + row.end);
         nodal::beginRow(row);
         for (const auto& effect : effects_)
             effect->apply(row);
         for (const auto& effect : effects_)
             effect->book(row);
         nodal::endRow(row, 1 / dt);
+        for (Index i = row.begin; i < row.end; ++i)
+            for (int a = 0; a < dim; ++a)
+                row.sums->forceWork += dt * force[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
     });
     nodal::NodeSums sums;
     for (const auto& row : rowSums_)
         sums += row;
     auto& ledger = state_.ledger;
+    ledger.pendingForceWork = sums.forceWork;
     for (const auto& traction : tractions_)
-        traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
+        ledger.pendingForceWork -=
+            traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;
@@ -410,7 +431,11 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Index first, int count, double
         scene_.bodyForce->acceleration(p, first, time_, b);
         for (int a = 0; a < dim; ++a)
             for (int l = 0; l < count; ++l)
-                sums.bodyForceWork += dt * m[l] * b[a][l] * (g.value[1 + a][l] - 0.5 * dt * g.value[1 + dim + a][l]);
+            {
+                const double end = dt * m[l] * b[a][l] * g.value[1 + a][l];
+                sums.bodyForceEnd += end;
+                sums.bodyForceWork += end - 0.5 * dt * dt * m[l] * b[a][l] * g.value[1 + dim + a][l];
+            }
     }
 }
 
@@ -435,14 +460,16 @@ void ExplicitStepper<dim, Shape>::updateStress(Index first, int count, double dt
         for (int l = 0; l < lanes; ++l)
             chunk.stress[k][l] = p.stress[k][std::size_t(first + l)];
 
+    const double* volume0 = p.volume0.data() + first;
+    double* volume = p.volume.data() + first;
+    constitutive::strainIncrement(L, dt, chunk.dStrain);
+    if (scene_.stressUpdate != StressUpdate::USL)
+        sums.strainWork += workOfStrain(chunk, volume, count);
     constitutive::advanceDeformation(L, dt, F);
     constitutive::determinant(F, J);
     constitutive::rotateStress(L, dt, chunk.stress);
-    constitutive::strainIncrement(L, dt, chunk.dStrain);
     callLaws(first, chunk);
 
-    const double* volume0 = p.volume0.data() + first;
-    double* volume = p.volume.data() + first;
     bool good = true;
     double smallest = sums.smallestJacobian;
     for (int l = 0; l < lanes; ++l)
@@ -572,6 +599,8 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         total.plasticWork += s.plasticWork;
         total.apexVolume += s.apexVolume;
         total.bodyForceWork += s.bodyForceWork;
+        total.bodyForceEnd += s.bodyForceEnd;
+        total.strainWork += s.strainWork;
         total.apexReturns += s.apexReturns;
         total.cappedDomains += s.cappedDomains;
         total.smallestJacobian = std::min(total.smallestJacobian, s.smallestJacobian);
@@ -584,10 +613,15 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         ledger.transferLoss -= total.kinetic - ledger.kineticEnergy;
         ledger.kineticEnergy = total.kinetic;
         ledger.bodyForceWork += total.bodyForceWork;
+        ledger.pendingForceWork -= total.bodyForceEnd;
         report_.largestSpeed = std::sqrt(total.largestSpeedSquare);
     }
     if (half.strain)
     {
+        // Strains see a projected velocity w, the forces worked on v*: half of f_int . (v* - w) dt belongs to the stress
+        // at either end of the step. USL takes its strains from v* itself.
+        if (scene_.stressUpdate != StressUpdate::USL && (state_.step > 0 || half.position))
+            ledger.transferLoss -= 0.5 * (ledger.pendingForceWork + total.strainWork);
         ledger.plasticDissipation += total.plasticWork;
         ledger.apexVolume += total.apexVolume;
         ledger.apexReturns += total.apexReturns;
