@@ -106,7 +106,7 @@ class Dictionary
     Location where(const std::string& word) const;
 
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
-    /// yes/no, true/false), std::string (a word or a quoted text), Vector3 (three numbers), std::vector<double>,
+    /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers), std::vector<double>,
     /// std::vector<std::string>, std::vector<Vector3>.
     template <class T>
     T get(const Entry<T>& entry) const;
