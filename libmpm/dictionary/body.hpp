@@ -5,8 +5,7 @@
 
 #include <map>
 
-namespace mpm::dictionary
-{
+namespace mpm::dictionary {
 struct Dictionary::Body
 {
     std::unique_ptr<Node> owned; ///< the tree, at its top only

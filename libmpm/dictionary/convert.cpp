@@ -6,10 +6,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 /// What is left of an entry's tokens while a value is taken from their front.
 struct Rest
 {
@@ -26,8 +24,7 @@ std::string shownValue(Rest rest)
         return "nothing";
     std::string out;
     const Token* before = nullptr;
-    for (const Token* token = rest.at; token != rest.end && out.size() < 80; before = token++)
-    {
+    for (const Token* token = rest.at; token != rest.end && out.size() < 80; before = token++) {
         if (before && !before->is('(') && !before->is('[') && !token->is(')') && !token->is(']'))
             out += ' ';
         out += token->source();
@@ -105,8 +102,7 @@ bool take(Rest& rest, std::vector<T>& values)
         return false;
     if (!rest.is('('))
         return false;
-    for (++rest.at; !rest.is(')');)
-    {
+    for (++rest.at; !rest.is(')');) {
         T value{};
         if (!take(rest, value))
             return false;
@@ -176,37 +172,51 @@ std::optional<double> outside(const Bound& bound, const T& value)
 {
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Index>)
         return bound.contains(double(value)) ? std::nullopt : std::optional<double>(double(value));
-    else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, Vector3>)
-    {
+    else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, Vector3>) {
         for (const double component : value)
             if (!bound.contains(component))
                 return component;
         return std::nullopt;
-    }
-    else if constexpr (std::is_same_v<T, std::vector<Vector3>>)
-    {
+    } else if constexpr (std::is_same_v<T, std::vector<Vector3>>) {
         for (const Vector3& vector : value)
             if (const auto bad = outside(bound, vector))
                 return bad;
         return std::nullopt;
-    }
-    else
+    } else
         return std::nullopt;
 }
 
-std::string shownDefault(double value) { return fmt::format("{}", value); }
-std::string shownDefault(Index value) { return fmt::format("{}", value); }
-std::string shownDefault(bool value) { return value ? "on" : "off"; }
-std::string shownDefault(const std::string& value) { return value; }
-std::string shownDefault(const Dimensions& value) { return exponentsText(value); }
-std::string shownDefault(const Vector3& value) { return fmt::format("({} {} {})", value[0], value[1], value[2]); }
+std::string shownDefault(double value)
+{
+    return fmt::format("{}", value);
+}
+std::string shownDefault(Index value)
+{
+    return fmt::format("{}", value);
+}
+std::string shownDefault(bool value)
+{
+    return value ? "on" : "off";
+}
+std::string shownDefault(const std::string& value)
+{
+    return value;
+}
+std::string shownDefault(const Dimensions& value)
+{
+    return exponentsText(value);
+}
+std::string shownDefault(const Vector3& value)
+{
+    return fmt::format("({} {} {})", value[0], value[1], value[2]);
+}
 template <class T>
 std::string shownDefault(const std::vector<T>& values)
 {
-    std::string out;
+    std::string out = "(";
     for (const T& value : values)
-        out += (out.empty() ? "" : " ") + shownDefault(value);
-    return "(" + out + ")";
+        out.append(out.size() > 1 ? " " : "").append(shownDefault(value));
+    return out + ")";
 }
 
 /// "a number > 0 [Pa]"
@@ -247,9 +257,11 @@ std::string unitText(const Dimensions& dimensions)
     static constexpr const char* names[] = {"kg", "m", "s", "K", "mol", "A", "cd"};
     std::string out;
     for (std::size_t i = 0; i < dimensions.size(); ++i)
-        if (dimensions[i] != 0)
-            out += (out.empty() ? "" : " ") + std::string(names[i]) +
-                   (dimensions[i] == 1 ? "" : fmt::format("^{}", dimensions[i]));
+        if (dimensions[i] != 0) {
+            out.append(out.empty() ? "" : " ").append(names[i]);
+            if (dimensions[i] != 1)
+                out += fmt::format("^{}", dimensions[i]);
+        }
     return out;
 }
 
@@ -260,8 +272,7 @@ T Dictionary::get(const Entry<T>& entry) const
     body_->remember({entry.word, Type<T>::name, entry.help, unitText(entry.dimensions), entry.bound.text(),
                      entry.fallback ? shownDefault(*entry.fallback) : ""});
     NodeEntry* found = body_->node->find(entry.word);
-    if (!found)
-    {
+    if (!found) {
         if (entry.fallback)
             return *entry.fallback;
         std::vector<std::string> unread;
@@ -271,8 +282,7 @@ T Dictionary::get(const Entry<T>& entry) const
         const std::string nearest = nearestWord(entry.word, unread);
         fail(entry.word, "nothing",
              allowed + (entry.help.empty() ? "" : ", " + entry.help) +
-                 (nearest.empty() ? ""
-                                  : fmt::format("; is '{}' in line {} meant?", nearest, where(nearest).line)));
+                 (nearest.empty() ? "" : fmt::format("; is '{}' in line {} meant?", nearest, where(nearest).line)));
     }
     found->read = true;
     if (found->dict)
@@ -283,8 +293,7 @@ T Dictionary::get(const Entry<T>& entry) const
     // `nu nu [0 2 -1 0 0] 1e-5;`: OpenFOAM's older way repeats the word
     if (rest.end - rest.at > 1 && rest.at[0].text == entry.word && rest.at[1].is('['))
         ++rest.at;
-    if (!std::is_same_v<T, Dimensions> && rest.is('['))
-    {
+    if (!std::is_same_v<T, Dimensions> && rest.is('[')) {
         Dimensions given{};
         if (!take(rest, given))
             fail(entry.word, shownValue(all), std::string(Type<Dimensions>::allowed) + " before the value");
@@ -293,7 +302,7 @@ T Dictionary::get(const Entry<T>& entry) const
                  exponentsText(entry.dimensions) + " (" +
                      (unitText(entry.dimensions).empty() ? "a pure number" : unitText(entry.dimensions)) + ")");
     }
-    if ((std::is_same_v<T, double> || std::is_same_v<T, Vector3>) && rest.end - rest.at > 1 &&
+    if ((std::is_same_v<T, double> || std::is_same_v<T, Vector3>)&&rest.end - rest.at > 1 &&
         rest.at->kind == Kind::word && rest.at->text == "uniform")
         ++rest.at;
 

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 constexpr const char* header = "FoamFile";
 }
 
@@ -41,7 +39,10 @@ Dictionary Dictionary::fromText(const std::string& text, const std::string& name
     return dict;
 }
 
-Location Dictionary::where() const { return body_->node->where; }
+Location Dictionary::where() const
+{
+    return body_->node->where;
+}
 
 Location Dictionary::where(const std::string& word) const
 {
@@ -52,8 +53,7 @@ Location Dictionary::where(const std::string& word) const
 void Dictionary::Body::remember(Asked question)
 {
     for (Asked& before : asked)
-        if (before.word == question.word)
-        {
+        if (before.word == question.word) {
             if (before.type.empty()) // known by found() only
                 before = std::move(question);
             return;
@@ -79,8 +79,7 @@ Dictionary& Dictionary::Body::open(NodeEntry& entry)
 {
     entry.read = true;
     auto& place = opened[entry.word];
-    if (!place)
-    {
+    if (!place) {
         place = std::make_unique<Dictionary>();
         place->body_->owned.reset();
         place->body_->node = entry.dict.get();
@@ -135,8 +134,7 @@ void Dictionary::set(const std::string& word, const std::string& value, const st
 {
     Node* node = body_->node;
     std::string last = word;
-    for (std::size_t dot; (dot = last.find('.')) != std::string::npos; last = last.substr(dot + 1))
-    {
+    for (std::size_t dot; (dot = last.find('.')) != std::string::npos; last = last.substr(dot + 1)) {
         NodeEntry* outer = node->find(last.substr(0, dot));
         if (!outer || !outer->dict)
             throw InputError({where, 0}, fmt::format("{}: found no dictionary {}{}", shownText(word),
@@ -158,7 +156,10 @@ void Dictionary::set(const std::string& word, const std::string& value, const st
         node->add(std::move(entry));
 }
 
-std::string Dictionary::text() const { return dictionaryText(*body_->node); }
+std::string Dictionary::text() const
+{
+    return dictionaryText(*body_->node);
+}
 
 void Dictionary::fail(const std::string& word, const std::string& found, const std::string& allowed) const
 {
@@ -169,8 +170,7 @@ std::vector<Asked> Dictionary::schema() const
 {
     std::vector<Asked> out = body_->asked;
     for (const auto& [name, dict] : body_->opened)
-        for (Asked inner : dict->schema())
-        {
+        for (Asked inner : dict->schema()) {
             inner.word = name + "." + inner.word;
             out.push_back(std::move(inner));
         }
@@ -180,15 +180,13 @@ std::vector<Asked> Dictionary::schema() const
 void Dictionary::rejectUnread() const
 {
     const auto known = body_->knownWords();
-    for (const NodeEntry& entry : body_->node->entries)
-    {
+    for (const NodeEntry& entry : body_->node->entries) {
         if (entry.word == header || (entry.expanded && !entry.read))
             continue;
         const auto opened = body_->opened.find(entry.word);
         if (entry.dict && opened != body_->opened.end())
             opened->second->rejectUnread();
-        else if (!entry.read)
-        {
+        else if (!entry.read) {
             const bool isKnown = std::find(known.begin(), known.end(), entry.word) != known.end();
             fail(entry.word, isKnown ? "a word that has no effect here" : "an unknown word",
                  known.empty() ? "nothing here" : joinWords(known) + didYouMean(entry.word, known));
@@ -200,17 +198,15 @@ std::string dictionaryText(const Node& node, int indent)
 {
     const std::string blanks(std::size_t(indent), ' ');
     std::string out;
-    for (const NodeEntry& entry : node.entries)
-    {
-        if (entry.dict)
-        {
-            out += fmt::format("{0}{1}\n{0}{{\n{2}{0}}}\n", blanks, entry.word, dictionaryText(*entry.dict, indent + 4));
+    for (const NodeEntry& entry : node.entries) {
+        if (entry.dict) {
+            out +=
+                fmt::format("{0}{1}\n{0}{{\n{2}{0}}}\n", blanks, entry.word, dictionaryText(*entry.dict, indent + 4));
             continue;
         }
         out += fmt::format("{}{:<15}", blanks, entry.word);
         const Token* before = nullptr;
-        for (const Token& token : entry.value)
-        {
+        for (const Token& token : entry.value) {
             if (!before || !(before->is('(') || before->is('[') || token.is(')') || token.is(']')))
                 out += ' ';
             out += token.source();

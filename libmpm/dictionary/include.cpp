@@ -9,10 +9,8 @@
 
 namespace fs = std::filesystem;
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 bool isInside(const fs::path& file, const fs::path& folder)
 {
     if (folder.empty())
@@ -26,7 +24,10 @@ fs::path realPath(const fs::path& path)
     return fs::canonical(path, none); // empty when it does not exist
 }
 
-fs::path etcFolder() { return fs::path(projectFolder()) / "etc"; }
+fs::path etcFolder()
+{
+    return fs::path(projectFolder()) / "etc";
+}
 
 struct KnownDirective
 {
@@ -37,15 +38,23 @@ struct KnownDirective
 constexpr const char* noCode = "nothing is calculated and no code is run here: write the value";
 constexpr const char* noBranch = "there are no conditions here";
 constexpr KnownDirective refused[] = {
-    {"calc", noCode},           {"codeStream", noCode},  {"eval", noCode},
-    {"if", noBranch},           {"ifeq", noBranch},      {"else", noBranch},
-    {"endif", noBranch},        {"inputMode", "a word replaces what came through #include or a macro, and nothing else"},
-    {"inputSyntax", nullptr},   {"remove", "leave the word out"},
-    {"includeFunc", nullptr},   {"message", nullptr},
+    {"calc", noCode},
+    {"codeStream", noCode},
+    {"eval", noCode},
+    {"if", noBranch},
+    {"ifeq", noBranch},
+    {"else", noBranch},
+    {"endif", noBranch},
+    {"inputMode", "a word replaces what came through #include or a macro, and nothing else"},
+    {"inputSyntax", nullptr},
+    {"remove", "leave the word out"},
+    {"includeFunc", nullptr},
+    {"message", nullptr},
     {"includeIfPresent", "a file that may be missing would change a run silently: use #include"},
     {"sinclude", "a file that may be missing would change a run silently: use #include"},
     {"sincludeEtc", "a file that may be missing would change a run silently: use #includeEtc"},
-    {"neg", noCode},            {"word", noCode},
+    {"neg", noCode},
+    {"word", noCode},
 };
 } // namespace
 
@@ -89,20 +98,20 @@ std::string Parser::load(const fs::path& file, const Location* from)
 
 void Parser::parseDirective(Node& node, Tokenizer& in, const Token& directive)
 {
-    if (directive.text == "include" || directive.text == "includeEtc")
-    {
+    if (directive.text == "include" || directive.text == "includeEtc") {
         const Token name = in.next();
         if (name.kind != Kind::text || name.line != directive.line)
-            throw InputError(directive.where(), fmt::format("#{}: found {}, allowed a file name in double quotes on the "
-                                                            "same line",
-                                                            directive.text, name.shown()));
+            throw InputError(directive.where(),
+                             fmt::format("#{}: found {}, allowed a file name in double quotes on the "
+                                         "same line",
+                                         directive.text, name.shown()));
         return include(node, directive, name);
     }
     for (const auto& known : refused)
         if (directive.text == known.name)
-            throw InputError(directive.where(), fmt::format("found {}, allowed #include and #includeEtc{}",
-                                                            directive.shown(),
-                                                            known.answer ? std::string("; ") + known.answer : ""));
+            throw InputError(directive.where(),
+                             fmt::format("found {}, allowed #include and #includeEtc{}", directive.shown(),
+                                         known.answer ? std::string("; ") + known.answer : ""));
     const std::string nearest = nearestWord(directive.text, {"include", "includeEtc"});
     throw InputError(directive.where(), fmt::format("found {}, allowed #include and #includeEtc{}", directive.shown(),
                                                     nearest.empty() ? "" : "; did you mean '#" + nearest + "'?"));
@@ -121,16 +130,14 @@ void Parser::include(Node& node, const Token& directive, const Token& name)
     fs::path file = name.text;
     if (directive.text == "includeEtc")
         file = etcFolder() / file;
-    else if (name.text[0] == '<')
-    {
+    else if (name.text[0] == '<') {
         const std::size_t close = name.text.find(">/");
         const std::string tag = close == std::string::npos ? "" : name.text.substr(1, close - 1);
         if (tag != "case" && tag != "constant" && tag != "system" && tag != "etc")
             fail("allowed <case>/, <constant>/, <system>/ or <etc>/ at its beginning");
         const fs::path rest = fs::path(name.text.substr(close + 2)).relative_path();
         file = tag == "etc" ? etcFolder() / rest : tag == "case" ? root_ / rest : root_ / tag / rest;
-    }
-    else if (file.is_relative())
+    } else if (file.is_relative())
         file = fs::path(*name.file).parent_path() / file;
 
     std::error_code none;

@@ -3,23 +3,19 @@
 
 #include <fmt/format.h>
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 /// Looks for `a`, `a.b`, `.a`, `..a` from `node`; never in the dictionaries around unless dots say so.
 NodeEntry* lookUpScoped(Node* node, std::string_view name)
 {
-    for (;;)
-    {
+    for (;;) {
         for (bool up = false; !name.empty() && name[0] == '.'; name.remove_prefix(1), up = true)
             if (up && !(node = node->parent))
                 return nullptr;
         // the shortest piece that names an entry; words may hold points themselves
         std::size_t end = name.find('.');
         NodeEntry* entry = node->find(std::string(name.substr(0, end)));
-        while (!entry && end != std::string_view::npos)
-        {
+        while (!entry && end != std::string_view::npos) {
             end = name.find('.', end + 1);
             entry = node->find(std::string(name.substr(0, end)));
         }
@@ -48,15 +44,13 @@ NodeEntry* lookUp(Node& node, const std::string& name)
 /// The entry behind a macro, marked as used; an error with the nearest name if there is none.
 NodeEntry& Parser::expand(Node& node, const Token& variable)
 {
-    if (NodeEntry* entry = lookUp(node, variable.text))
-    {
+    if (NodeEntry* entry = lookUp(node, variable.text)) {
         entry->expanded = true;
         return *entry;
     }
     std::string hint;
     std::vector<std::string> known;
-    for (Node* here = &node; here; here = here->parent)
-    {
+    for (Node* here = &node; here; here = here->parent) {
         if (here != &node && hint.empty() && variable.text.find('.') != std::string::npos &&
             lookUpScoped(here, variable.text))
             hint = fmt::format("; did you mean '$:{}'?", here->pathOf(variable.text));
@@ -66,8 +60,8 @@ NodeEntry& Parser::expand(Node& node, const Token& variable)
     const std::string nearest = nearestWord(variable.text, known);
     if (hint.empty() && !nearest.empty())
         hint = fmt::format("; did you mean '${}'?", nearest);
-    throw InputError(variable.where(), fmt::format("found {}, allowed a macro whose word was given before it{}",
-                                                   variable.shown(), hint));
+    throw InputError(variable.where(),
+                     fmt::format("found {}, allowed a macro whose word was given before it{}", variable.shown(), hint));
 }
 
 /// `$dict;` as an entry: everything of that dictionary, copied here.
@@ -81,8 +75,7 @@ void Parser::merge(Node& node, const Token& variable)
     copy.parent = node.parent;
     copy.path = node.path;
     copyInto(*source.dict, copy, layer_ + 1, variable.where());
-    for (NodeEntry& entry : copy.entries)
-    {
+    for (NodeEntry& entry : copy.entries) {
         if (entry.dict)
             entry.dict->parent = &node;
         place(node, std::move(entry), variable.where());
@@ -93,8 +86,7 @@ void Parser::copyInto(const Node& from, Node& to, int layer, const Location& whe
 {
     if (from.beingRead)
         throw InputError(where, "found a macro for the dictionary in which it stands");
-    for (const NodeEntry& entry : from.entries)
-    {
+    for (const NodeEntry& entry : from.entries) {
         NodeEntry copy;
         copy.word = entry.word;
         copy.value = entry.value;
@@ -103,8 +95,7 @@ void Parser::copyInto(const Node& from, Node& to, int layer, const Location& whe
         copy.layer = layer;
         for (const Token& token : copy.value)
             charge(sizeof(Token) + token.text.size(), where);
-        if (entry.dict)
-        {
+        if (entry.dict) {
             copy.dict = newNode(to, entry.word, entry.where);
             copyInto(*entry.dict, *copy.dict, layer, where);
         }
@@ -120,8 +111,7 @@ void Parser::appendVariable(Node& node, const Token& key, const Token& variable,
         throw InputError(variable.where(), fmt::format("{}: found {}, which is a dictionary ({}), allowed a value",
                                                        node.pathOf(key.text), variable.shown(), source.where.text()));
     const std::size_t count = source.value.size();
-    for (std::size_t i = 0; i < count; ++i)
-    {
+    for (std::size_t i = 0; i < count; ++i) {
         charge(sizeof(Token) + source.value[i].text.size(), variable.where());
         value.push_back(source.value[i]);
         value.back().file = variable.file;

@@ -5,8 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace mpm::dictionary
-{
+namespace mpm::dictionary {
 struct Node;
 
 /// `word value;` or `word { ... }`.

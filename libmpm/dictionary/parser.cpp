@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 struct OpenBracket
 {
     char close;
@@ -42,8 +40,8 @@ std::vector<Token> Parser::parseValue(Node& node, const std::string& word, const
     Token first = in.next();
     auto value = readValue(node, in, key, std::move(first), lastLine);
     if (const Token more = in.next(); more.kind != Kind::end)
-        throw InputError({name, 0}, fmt::format("{}: found {} after the value, allowed one value", node.pathOf(word),
-                                                more.shown()));
+        throw InputError(
+            {name, 0}, fmt::format("{}: found {} after the value, allowed one value", node.pathOf(word), more.shown()));
     for (Token& token : value)
         token.line = 0;
     return value;
@@ -68,11 +66,9 @@ int Parser::depthOf(const Node& node) const
 /// Entries until the closing brace, or until the end of the file when `brace` is null.
 void Parser::parseBlock(Node& node, Tokenizer& in, const Token* brace)
 {
-    for (;;)
-    {
+    for (;;) {
         const Token token = in.next();
-        if (token.kind == Kind::end)
-        {
+        if (token.kind == Kind::end) {
             if (brace)
                 throw InputError(brace->where(), fmt::format("{}: found '{{' without its '}}'", node.path));
             return;
@@ -83,16 +79,14 @@ void Parser::parseBlock(Node& node, Tokenizer& in, const Token* brace)
             continue;
         if (token.kind == Kind::directive)
             parseDirective(node, in, token);
-        else if (token.kind == Kind::variable)
-        {
+        else if (token.kind == Kind::variable) {
             const Token after = in.next();
             if (!after.is(';'))
                 throw InputError(token.where(), fmt::format("found {} followed by {}, allowed '{};' (a macro cannot be "
                                                             "the word of an entry)",
                                                             token.shown(), after.shown(), token.source()));
             merge(node, token);
-        }
-        else
+        } else
             parseEntry(node, in, token);
     }
 }
@@ -129,8 +123,7 @@ std::unique_ptr<Node> Parser::newNode(Node& parent, const std::string& word, con
 
 void Parser::parseDictionary(Node& node, Tokenizer& in, const Token& key, const Token& brace)
 {
-    if (key.text == "FoamFile" && node.find("FoamFile"))
-    {
+    if (key.text == "FoamFile" && node.find("FoamFile")) {
         Node header; // of an included file: read for its syntax only
         header.path = "FoamFile";
         header.parent = &node;
@@ -155,8 +148,7 @@ void Parser::parsePlain(Node& node, Tokenizer& in, const Token& key, Token first
     entry.where = key.where();
     entry.layer = layer_;
     if (first.kind == Kind::variable) // `word $dict;` copies a dictionary
-        if (NodeEntry* source = lookUp(node, first.text); source && source->dict)
-        {
+        if (NodeEntry* source = lookUp(node, first.text); source && source->dict) {
             expand(node, first);
             if (const Token after = in.next(); !after.is(';'))
                 throw InputError(key.where(), fmt::format("{}: found {} after the dictionary {}, allowed ';'",
@@ -176,8 +168,7 @@ std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key
     std::vector<Token> value;
     std::vector<OpenBracket> open;
     int line = key.line;
-    for (;; token = in.next())
-    {
+    for (;; token = in.next()) {
         const bool ends = token.kind == Kind::end || token.is('{') || token.is('}');
         if (!open.empty() && (ends || token.is(';')))
             throw InputError(open.back().where, fmt::format("{}: found '{}' without its '{}'{}", path,
@@ -186,19 +177,16 @@ std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key
                                                                             "read here)"
                                                                           : ""));
         if (ends)
-            throw InputError({*key.file, line}, fmt::format("{}: missing ';' at the end of this line (found {} {})",
-                                                            path, token.shown(),
-                                                            token.line == line ? "instead"
-                                                                               : fmt::format("in line {}", token.line)));
-        if (token.is(';'))
-        {
+            throw InputError({*key.file, line},
+                             fmt::format("{}: missing ';' at the end of this line (found {} {})", path, token.shown(),
+                                         token.line == line ? "instead" : fmt::format("in line {}", token.line)));
+        if (token.is(';')) {
             lastLine = token.line;
             return value;
         }
         line = token.line;
         charge(sizeof(Token) + token.text.size(), token.where());
-        if (token.kind == Kind::variable)
-        {
+        if (token.kind == Kind::variable) {
             appendVariable(node, key, token, value);
             continue;
         }
@@ -206,15 +194,12 @@ std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key
             throw InputError(token.where(), fmt::format("{}: found {}, allowed a value (directives stand between "
                                                         "entries)",
                                                         path, token.shown()));
-        if (token.is('(') || token.is('['))
-        {
+        if (token.is('(') || token.is('[')) {
             open.push_back({token.is('(') ? ')' : ']', token.where()});
             if (open.size() > Limits::nesting)
-                throw InputError(token.where(), fmt::format("{}: found lists nested deeper than {}", path,
-                                                            Limits::nesting));
-        }
-        else if (token.is(')') || token.is(']'))
-        {
+                throw InputError(token.where(),
+                                 fmt::format("{}: found lists nested deeper than {}", path, Limits::nesting));
+        } else if (token.is(')') || token.is(']')) {
             if (open.empty() || !token.is(open.back().close))
                 throw InputError(token.where(), fmt::format("{}: found {} without its '{}'", path, token.shown(),
                                                             token.is(')') ? '(' : '['));
@@ -229,8 +214,7 @@ void Parser::place(Node& node, NodeEntry entry, const Location& where)
 {
     charge(sizeof(NodeEntry) + sizeof(Node) + 4 * entry.word.size() + node.path.size(), where);
     NodeEntry* old = node.find(entry.word);
-    if (!old)
-    {
+    if (!old) {
         node.add(std::move(entry));
         return;
     }
@@ -242,13 +226,12 @@ void Parser::place(Node& node, NodeEntry entry, const Location& where)
                                                               "its words afterwards)"
                                                             : ""));
     if (!old->dict != !entry.dict)
-        throw InputError(where, fmt::format("{}: found {}, but {} makes it {}", path,
-                                            entry.dict ? "a dictionary" : "a value", before,
-                                            old->dict ? "a dictionary" : "a value"));
+        throw InputError(where,
+                         fmt::format("{}: found {}, but {} makes it {}", path, entry.dict ? "a dictionary" : "a value",
+                                     before, old->dict ? "a dictionary" : "a value"));
     old->where = where;
     old->layer = entry.layer;
-    if (!entry.dict)
-    {
+    if (!entry.dict) {
         old->value = std::move(entry.value);
         old->lastLine = entry.lastLine;
         return;

@@ -4,21 +4,20 @@
 ///     file   = { entry }
 ///     entry  = word { token } ';'  |  word '{' { entry } '}'  |  '$' name ';'  |  '#include' "file"
 ///
-/// What OpenFOAM settles silently is an error here: a word given twice, a missing ';', an unknown macro. A word that came
-/// through #include or `$dict;` may be given again afterwards, which replaces it (nested dictionaries are merged).
+/// What OpenFOAM settles silently is an error here: a word given twice, a missing ';', an unknown macro. A word that
+/// came through #include or `$dict;` may be given again afterwards, which replaces it (nested dictionaries are merged).
 /// Bounds for text nobody vouches for: see Limits.
 #include "dictionary/node.hpp"
 
 #include <filesystem>
 
-namespace mpm::dictionary
-{
+namespace mpm::dictionary {
 struct Limits
 {
-    static constexpr int nesting = 100;                      ///< braces, and brackets of a list
-    static constexpr int includeDepth = 10;                  ///< files within files
-    static constexpr int includeCount = 200;                 ///< #include directives of one dictionary
-    static constexpr std::uintmax_t fileBytes = 4u << 20;    ///< size of one file
+    static constexpr int nesting = 100;                              ///< braces, and brackets of a list
+    static constexpr int includeDepth = 10;                          ///< files within files
+    static constexpr int includeCount = 200;                         ///< #include directives of one dictionary
+    static constexpr std::uintmax_t fileBytes = 4u << 20;            ///< size of one file
     static constexpr std::size_t treeBytes = std::size_t(256) << 20; ///< memory of the tree, macros expanded
 };
 
@@ -31,7 +30,8 @@ class Parser
     std::unique_ptr<Node> parseFile(const std::filesystem::path& file);
     std::unique_ptr<Node> parseText(std::string text, const std::string& name);
     /// The tokens of one value for `word` of `node`, as a command line gives it.
-    std::vector<Token> parseValue(Node& node, const std::string& word, const std::string& text, const std::string& name);
+    std::vector<Token> parseValue(Node& node, const std::string& word, const std::string& text,
+                                  const std::string& name);
 
   private:
     void parseBlock(Node& node, Tokenizer& in, const Token* brace);

@@ -1,17 +1,16 @@
 #pragma once
 /// Internal to dictionary/: the words, numbers, texts and brackets of OpenFOAM's syntax, one at a time.
 ///
-/// A word runs until blank, quote, '/', ';', '{', '}' or an unmatched ')' or ']', so `div(phi,U)` is one word. A token that
-/// starts like a number must be a number as a whole. Comments are skipped.
-/// Errors (InputError at the line where the thing begins): comment or text without end, bytes that are not text, a word
-/// with unmatched brackets, over-long words.
+/// A word runs until blank, quote, '/', ';', '{', '}' or an unmatched ')' or ']', so `div(phi,U)` is one word. A token
+/// that starts like a number must be a number as a whole. Comments are skipped. Errors (InputError at the line where
+/// the thing begins): comment or text without end, bytes that are not text, a word with unmatched brackets, over-long
+/// words.
 #include "base/error.hpp"
 
 #include <memory>
 #include <string>
 
-namespace mpm::dictionary
-{
+namespace mpm::dictionary {
 enum class Kind
 {
     word,

@@ -2,15 +2,22 @@
 
 #include <fmt/format.h>
 
-namespace mpm::dictionary
-{
-namespace
-{
+namespace mpm::dictionary {
+namespace {
 constexpr std::size_t longestWord = 1000;
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isControl(char c) { return (static_cast<unsigned char>(c) < 32 && !isBlank(c)) || c == 127; }
+bool isBlank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
+bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+bool isControl(char c)
+{
+    return (static_cast<unsigned char>(c) < 32 && !isBlank(c)) || c == 127;
+}
 
 /// Characters that end a word in any case; brackets end it only when they are not matched inside the word.
 bool endsWord(char c)
@@ -31,15 +38,13 @@ bool hasNumberShape(const std::string& s)
     if (i < s.size() && s[i] == '-')
         ++i;
     digits += run();
-    if (i < s.size() && s[i] == '.')
-    {
+    if (i < s.size() && s[i] == '.') {
         ++i;
         digits += run();
     }
     if (digits == 0)
         return false;
-    if (i < s.size() && (s[i] == 'e' || s[i] == 'E'))
-    {
+    if (i < s.size() && (s[i] == 'e' || s[i] == 'E')) {
         ++i;
         if (i < s.size() && (s[i] == '+' || s[i] == '-'))
             ++i;
@@ -53,8 +58,7 @@ bool hasNumberShape(const std::string& s)
 std::string shownText(const std::string& text)
 {
     std::string out = "'";
-    for (std::size_t i = 0; i < text.size(); ++i)
-    {
+    for (std::size_t i = 0; i < text.size(); ++i) {
         if (i == 60)
             return out + "...'";
         const auto c = static_cast<unsigned char>(text[i]);
@@ -73,14 +77,12 @@ std::string Token::shown() const
 
 std::string Token::source() const
 {
-    switch (kind)
-    {
+    switch (kind) {
     case Kind::variable:
         return "$" + text;
     case Kind::directive:
         return "#" + text;
-    case Kind::text:
-    {
+    case Kind::text: {
         std::string out = "\"";
         for (const char c : text)
             out += c == '"' ? std::string("\\\"") : std::string(1, c);
@@ -111,8 +113,7 @@ Token Tokenizer::make(Kind kind, std::string text, int line) const
 void Tokenizer::skipBlockComment()
 {
     const int begin = line_;
-    for (at_ += 2; !(peek() == '*' && peek(1) == '/'); ++at_)
-    {
+    for (at_ += 2; !(peek() == '*' && peek(1) == '/'); ++at_) {
         if (over())
             fail(begin, "found a comment '/*' without its '*/'");
         line_ += peek() == '\n';
@@ -122,14 +123,11 @@ void Tokenizer::skipBlockComment()
 
 void Tokenizer::skipBlanks()
 {
-    for (; !over(); )
-    {
-        if (isBlank(peek()))
-        {
+    for (; !over();) {
+        if (isBlank(peek())) {
             line_ += peek() == '\n';
             ++at_;
-        }
-        else if (peek() == '/' && peek(1) == '/')
+        } else if (peek() == '/' && peek(1) == '/')
             while (!over() && peek() != '\n')
                 ++at_;
         else if (peek() == '/' && peek(1) == '*')
@@ -145,8 +143,7 @@ Token Tokenizer::next()
     if (over())
         return make(Kind::end, "", line_);
     const char c = peek();
-    switch (c)
-    {
+    switch (c) {
     case '(':
     case ')':
     case '[':
@@ -190,8 +187,7 @@ Token Tokenizer::quoted()
 {
     const int begin = line_;
     std::string out;
-    for (++at_; peek() != '"' || over(); ++at_)
-    {
+    for (++at_; peek() != '"' || over(); ++at_) {
         if (over() || peek() == '\n')
             fail(begin, "found a text without its closing '\"' on the same line");
         if (isControl(peek()))
@@ -210,13 +206,11 @@ std::string Tokenizer::takeWord()
 {
     const std::size_t begin = at_;
     std::string open;
-    for (; !over() && !endsWord(peek()); ++at_)
-    {
+    for (; !over() && !endsWord(peek()); ++at_) {
         const char c = peek();
         if (c == '(' || c == '[')
             open += c == '(' ? ')' : ']';
-        else if (c == ')' || c == ']')
-        {
+        else if (c == ')' || c == ']') {
             if (open.empty())
                 break;
             if (open.back() != c)
@@ -243,7 +237,8 @@ Token Tokenizer::numberOrSign()
     std::string word = text_.substr(begin, at_ - begin);
     if (!hasNumberShape(word))
         fail(line_, fmt::format("found {}, allowed a number like -1.5e3 (a text that begins with a digit, a sign or a "
-                                "point stands in quotes)", shownText(word)));
+                                "point stands in quotes)",
+                                shownText(word)));
     return make(Kind::number, std::move(word), line_);
 }
 
@@ -253,8 +248,7 @@ Token Tokenizer::variable()
     const auto slash = [this] { return peek() == '/' && peek(1) != '/' && peek(1) != '*'; };
     ++at_;
     std::string name;
-    if (peek() == '{')
-    {
+    if (peek() == '{') {
         const std::size_t close = text_.find_first_of("}\n;", at_);
         if (close == std::string::npos || text_[close] != '}')
             fail(line, "found '${' without its '}'");
@@ -262,9 +256,7 @@ Token Tokenizer::variable()
         at_ = close + 1;
         if (name.find(":-") != std::string::npos || name.find_first_of("{$ \t\"") != std::string::npos)
             fail(line, fmt::format("found {}, allowed a plain name: ${{word}}", shownText("${" + name + "}")));
-    }
-    else
-    {
+    } else {
         if (slash())
             fail(line, "found '$/'; the top of the file is written $:word, the dictionary around $..word");
         while (!over() && !endsWord(peek()) && std::string("()[]$,").find(peek()) == std::string::npos)

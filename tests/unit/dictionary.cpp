@@ -5,8 +5,7 @@
 using namespace mpm;
 using namespace mpm::dictionary;
 
-namespace
-{
+namespace {
 const char* const soilText = R"(FoamFile
 {
     version     2.0;
