@@ -24,13 +24,11 @@
 #include <string>
 #include <vector>
 
-namespace mpm::dictionary
-{
+namespace mpm::dictionary {
 /// Exponents of [kg m s K mol A cd].
 using Dimensions = std::array<double, 7>;
 
-namespace unit
-{
+namespace unit {
 inline constexpr Dimensions none{};
 inline constexpr Dimensions length{0, 1, 0};
 inline constexpr Dimensions time{0, 0, 1};
@@ -91,7 +89,8 @@ class Dictionary
   public:
     /// Reads a file. #include may reach files below `root` (default: the file's folder's parent, which is the case
     /// folder) and below the project's etc folder, nothing else.
-    /// Throws InputError: unreadable file, missing ';', unbalanced braces, unknown directive or macro, word given twice.
+    /// Throws InputError: unreadable file, missing ';', unbalanced braces, unknown directive or macro, word given
+    /// twice.
     static Dictionary readFile(const std::filesystem::path& file, const std::filesystem::path& root = {});
     /// Reads text; `name` stands for the file in messages.
     static Dictionary fromText(const std::string& text, const std::string& name = "text");
@@ -106,8 +105,8 @@ class Dictionary
     Location where(const std::string& word) const;
 
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
-    /// yes/no, true/false), std::string (a word or a quoted text), Vector3 (three numbers), std::vector<double>,
-    /// std::vector<std::string>, std::vector<Vector3>.
+    /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers),
+    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>.
     template <class T>
     T get(const Entry<T>& entry) const;
 
