@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "output/hdf5File.hpp"
 #include "output/replaceFile.hpp"
+#include "output/visualisation.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -54,6 +55,8 @@ void writeField(Hdf5File& file, const std::string& group, const DerivedField& fi
     file.remove(name);
     file.write<double>(name, values, {n, width}, field.unit);
     file.setAttribute(name, "components", field.components);
+    if (rows)
+        writeDerivedVisualisation(file, field.name, field.components, values, field.unit);
 }
 
 DerivedField readField(const Hdf5File& file, const std::string& group, const std::string& plainName,

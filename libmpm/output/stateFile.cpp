@@ -310,7 +310,8 @@ StateSummary readSummary(const std::filesystem::path& name)
     if (shape.size() != 1)
         file.fail("/particles/mass", "one value a particle expected");
     summary.particles = shape.front();
-    summary.derivedFields = file.members("/derived");
+    for (const auto& field : file.members("/derived"))
+        summary.derived.push_back({field, file.textsAttribute("/derived/" + field, "components")});
     return summary;
 }
 } // namespace mpm::output

@@ -23,7 +23,7 @@
 ///     /derivedNodal/<field>      (nodes, k), and /derivedNodal/position (nodes, dim) [m]
 ///     /visualisation             float32/int32 copies for ParaView (paraviewSeries.hpp); never read back:
 ///                                points (N, 3), connectivity (N), velocity (N, 3),
-///                                corners (4 N or 8 N, 3), cornerConnectivity (N, 4 or 8)
+///                                corners (4 N or 8 N, 3), cornerConnectivity (N, 4 or 8), sigma_xx ... (N)
 ///
 /// '/' and '%' in the names of patches and provenance entries are stored as %2F and %25.
 ///
@@ -45,6 +45,13 @@ void writeState(const std::filesystem::path& timeFolder, const state::State& sta
 /// Reads a state, bitwise as written; particles that are not in the order (sortKey, id) are brought into it.
 state::State readState(const std::filesystem::path& file);
 
+/// A field below /derived: its name and one name a column.
+struct FieldName
+{
+    std::string name;
+    std::vector<std::string> components;
+};
+
 /// The few numbers a listing needs, without reading the arrays.
 struct StateSummary
 {
@@ -52,7 +59,7 @@ struct StateSummary
     double time = 0; ///< [s]
     Index step = 0;
     Index particles = 0;
-    std::vector<std::string> derivedFields;
+    std::vector<FieldName> derived;
 };
 StateSummary readSummary(const std::filesystem::path& file);
 

@@ -20,6 +20,36 @@ Vector3 domainCorner(const state::Particles& p, Index particle, int c)
     return corner;
 }
 
+std::string stressComponentName(int component)
+{
+    return std::string("sigma_") + stressNames[std::size_t(component)];
+}
+
+std::vector<std::string> derivedComponentNames(const std::string& field, const std::vector<std::string>& components)
+{
+    if (components.size() == 1)
+        return {field};
+    std::vector<std::string> names;
+    for (const auto& component : components)
+        names.push_back(field + "_" + component);
+    return names;
+}
+
+void writeDerivedVisualisation(Hdf5File& file, const std::string& field, const std::vector<std::string>& components,
+                               const std::vector<double>& rows, const std::string& unit)
+{
+    const auto names = derivedComponentNames(field, components);
+    const std::size_t width = names.size();
+    for (std::size_t k = 0; k < width; ++k)
+    {
+        std::vector<float> column;
+        for (std::size_t i = k; i < rows.size(); i += width)
+            column.push_back(float(rows[i]));
+        file.remove("/visualisation/derived/" + names[k]);
+        file.write<float>("/visualisation/derived/" + names[k], column, {Index(column.size())}, unit);
+    }
+}
+
 void writeVisualisation(Hdf5File& file, const state::Particles& p)
 {
     const Index n = p.size();
@@ -45,5 +75,10 @@ void writeVisualisation(Hdf5File& file, const state::Particles& p)
     file.write<float>("/visualisation/corners", corner, {n * corners, 3}, "m");
     file.write<std::int32_t>("/visualisation/connectivity", std::span(numbers).first(std::size_t(n)), {n}, "1");
     file.write<std::int32_t>("/visualisation/cornerConnectivity", numbers, {n, corners}, "1");
+    for (int k = 0; k < stressComponents(p.dim); ++k)
+    {
+        const std::vector<float> column(p.stress[std::size_t(k)].begin(), p.stress[std::size_t(k)].begin() + n);
+        file.write<float>("/visualisation/" + stressComponentName(k), column, {n}, "Pa");
+    }
 }
 } // namespace mpm::output

@@ -3,6 +3,7 @@
 #include "output/hdf5File.hpp"
 #include "output/replaceFile.hpp"
 #include "output/stateFile.hpp"
+#include "support/fullDisk.hpp"
 #include "support/sampleState.hpp"
 #include "support/temporaryFolder.hpp"
 
@@ -161,6 +162,17 @@ TEST_CASE("writing replaces the old state at once or not at all")
         CHECK_FALSE(fs::exists(folder / "1/state.h5.partial"));
         CHECK_THROWS_AS(writeState(folder / "2", twice), InputError);
         CHECK_FALSE(fs::exists(folder / "2"));
+    }
+    SECTION("a full disk keeps the old state")
+    {
+        auto later = sampleState(2, 500);
+        CHECK(tests::refusedOnFullDisk(30000, [&] { writeState(folder / "1", later); }));
+        requireSameBits(readState(folder / "1/state.h5"), state);
+        CHECK_FALSE(fs::exists(folder / "1/state.h5.partial"));
+        CHECK(tests::refusedOnFullDisk(1000, [&] { writeDerived(folder / "1/state.h5", state, {}); }));
+        requireSameBits(readState(folder / "1/state.h5"), state);
+        CHECK(tests::refusedOnFullDisk(30000, [&] { writeState(folder / "3", later); }));
+        CHECK_FALSE(fs::exists(folder / "3"));
     }
     SECTION("a folder that cannot be made is named")
     {
@@ -433,7 +445,10 @@ TEST_CASE("derived fields follow the particles by id and end with them")
     CHECK(back.position == nodal.position);
     CHECK(back.fields[0].columns == nodal.fields[0].columns);
     requireSameBits(readState(file), state);
-    CHECK(readSummary(file).derivedFields == std::vector<std::string>{"overburden", "smoothedStress"});
+    const auto summary = readSummary(file);
+    REQUIRE(summary.derived.size() == 2);
+    CHECK(summary.derived[0].name == "overburden");
+    CHECK(summary.derived[1].components == std::vector<std::string>{"xx", "yy"});
 
     SECTION("writing them again does not let the file grow")
     {
@@ -445,7 +460,7 @@ TEST_CASE("derived fields follow the particles by id and end with them")
     SECTION("a new state drops them")
     {
         writeState(folder / "1", state);
-        CHECK(readSummary(file).derivedFields.empty());
+        CHECK(readSummary(file).derived.empty());
         CHECK(readDerivedNodal(file).position.empty());
     }
     SECTION("other particles are refused and the file stays")
