@@ -1,0 +1,92 @@
+#pragma once
+/// One HDF5 file: typed arrays with a shape, attributes and texts. A thin layer over the C library (hdf5File.cpp is the
+/// only place that knows it), serial, little-endian on disk.
+///
+/// Names are absolute ("/particles/mass"); writing makes the groups in between. Every failure is an InputError that
+/// names the file and the object; HDF5's own messages are switched off.
+///
+/// A reader does not trust its file. An array must have exactly the element type asked for (double, float, int64,
+/// int32; either byte order), the shape asked for, its bytes inside the file: soft, external and virtual objects,
+/// external storage, compressed or unallocated data are refused, and all that is read from one file may not exceed
+/// sixteen times its length. So no file makes a program allocate much more than the file itself takes on the disk.
+/// A file shorter than it was written is refused when opened.
+///
+///     auto file = Hdf5File::create("state.h5");
+///     file.write<double>("/particles/mass", mass, {n}, "kg");
+///     file.setAttribute("/", "time", 0.25);
+///     file.close();                                    // flushed, or InputError
+///     auto again = Hdf5File::open("state.h5");
+///     auto m = again.read<double>("/particles/mass", {-1});
+#include "base/types.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm::output
+{
+using Shape = std::vector<Index>;
+
+class Hdf5File
+{
+  public:
+    static Hdf5File create(const std::filesystem::path& file); ///< new and empty; an old file of that name is lost
+    static Hdf5File open(const std::filesystem::path& file);   ///< to read
+    static Hdf5File edit(const std::filesystem::path& file);   ///< to read and write
+    ~Hdf5File();
+    Hdf5File(Hdf5File&& other) noexcept;
+    Hdf5File& operator=(Hdf5File&&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+    /// Closes and reports what could not be written; the destructor closes silently.
+    void close();
+
+    /// A group with those above it, if they are not there.
+    void makeGroup(const std::string& name);
+    /// A new dataset; values.size() = product of the shape. T: double, float, int64, int32.
+    /// A unit becomes the attribute "unit" ("1" for pure numbers); an empty one is left out.
+    template <class T>
+    void write(const std::string& name, std::span<const T> values, const Shape& shape, const std::string& unit);
+    void writeScalar(const std::string& name, double value, const std::string& unit);
+    void writeScalar(const std::string& name, Index value, const std::string& unit);
+    /// A text as scalar dataset, fixed length, UTF-8 (no zero bytes inside).
+    void writeText(const std::string& name, const std::string& text);
+    void setAttribute(const std::string& object, const std::string& name, double value);
+    void setAttribute(const std::string& object, const std::string& name, Index value);
+    void setAttribute(const std::string& object, const std::string& name, const Vector3& value);
+    void setAttribute(const std::string& object, const std::string& name, const std::string& value);
+    void setAttribute(const std::string& object, const std::string& name, const std::vector<std::string>& value);
+    /// Removes an object, if it is there.
+    void remove(const std::string& name);
+
+    bool exists(const std::string& name) const;
+    bool hasAttribute(const std::string& object, const std::string& name) const;
+    /// Names of a group's members, by name.
+    std::vector<std::string> members(const std::string& group) const;
+    /// Extents of a dataset (empty for a scalar).
+    Shape shape(const std::string& name) const;
+    /// The values; an expected extent of -1 allows any.
+    template <class T>
+    std::vector<T> read(const std::string& name, const Shape& expected) const;
+    double readReal(const std::string& name) const { return read<double>(name, {}).front(); }
+    Index readInteger(const std::string& name) const { return read<std::int64_t>(name, {}).front(); }
+    std::string readText(const std::string& name) const;
+    double realAttribute(const std::string& object, const std::string& name) const;
+    Index integerAttribute(const std::string& object, const std::string& name) const;
+    Vector3 vectorAttribute(const std::string& object, const std::string& name) const;
+    std::string textAttribute(const std::string& object, const std::string& name) const;
+    std::vector<std::string> textsAttribute(const std::string& object, const std::string& name) const;
+
+    /// Throws InputError "file: object: message".
+    [[noreturn]] void fail(const std::string& object, const std::string& message) const;
+
+  private:
+    Hdf5File(std::filesystem::path file, std::int64_t handle);
+
+    std::filesystem::path path_;
+    std::int64_t file_ = -1;             ///< HDF5's handle
+    mutable std::uint64_t allowance_ = 0; ///< bytes that may still be read
+};
+} // namespace mpm::output

@@ -1,0 +1,34 @@
+#pragma once
+/// The ledger's entries with their names in state.h5 and their units in 3D (in 2D all but counts are per metre).
+#include "state/state.hpp"
+
+#include <string>
+
+namespace mpm::output
+{
+/// Calls visit(name, value, unit) for every entry; value is a double, an Index or a Vector3.
+template <class Ledger, class Visitor>
+void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
+{
+    visit("plasticDissipation", ledger.plasticDissipation, "J");
+    visit("frictionDissipation", ledger.frictionDissipation, "J");
+    visit("wallNormalLoss", ledger.wallNormalLoss, "J");
+    visit("splitMergeLoss", ledger.splitMergeLoss, "J");
+    visit("transferLoss", ledger.transferLoss, "J");
+    visit("gravityWork", ledger.gravityWork, "J");
+    visit("tractionWork", ledger.tractionWork, "J");
+    visit("apexVolume", ledger.apexVolume, "m^3");
+    visit("initialEnergy", ledger.initialEnergy, "J");
+    visit("wallImpulse", ledger.wallImpulse, "N s");
+    visit("gravityImpulse", ledger.gravityImpulse, "N s");
+    visit("tractionImpulse", ledger.tractionImpulse, "N s");
+    visit("initialMomentum", ledger.initialMomentum, "N s");
+    visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
+    visit("apexReturns", ledger.apexReturns, "1");
+    visit("splits", ledger.splits, "1");
+    visit("splitsPutOff", ledger.splitsPutOff, "1");
+
+    // A new member of Ledger must be added above, or a restart would lose it.
+    static_assert(sizeof(state::Ledger) == 25 * 8);
+}
+} // namespace mpm::output

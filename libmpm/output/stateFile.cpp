@@ -1,0 +1,317 @@
+#include "output/stateFile.hpp"
+
+#include "base/error.hpp"
+#include "output/hdf5File.hpp"
+#include "output/ledgerEntries.hpp"
+#include "output/replaceFile.hpp"
+#include "output/visualisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace mpm::output
+{
+namespace
+{
+constexpr const char* formatName = "libmpm state";
+constexpr Index formatVersion = 1;
+
+/// Columns side by side: row i holds column 0 to n-1 of particle i.
+template <class T, std::size_t n>
+std::vector<T> interleaved(const std::array<state::Column<T>, n>& columns, int used, Index rows)
+{
+    std::vector<T> out(std::size_t(used) * std::size_t(rows));
+    for (int k = 0; k < used; ++k)
+        for (Index i = 0; i < rows; ++i)
+            out[std::size_t(i * used + k)] = columns[std::size_t(k)][std::size_t(i)];
+    return out;
+}
+
+template <class T, std::size_t n>
+void deal(const std::vector<T>& values, int used, Index rows, std::array<state::Column<T>, n>& columns)
+{
+    for (int k = 0; k < used; ++k)
+        for (Index i = 0; i < rows; ++i)
+            columns[std::size_t(k)][std::size_t(i)] = values[std::size_t(i * used + k)];
+}
+
+/// "/" and "%" would change the meaning of an HDF5 name; "." alone is its own group.
+std::string encoded(const std::string& name)
+{
+    std::string out;
+    for (char c : name)
+        out += c == '/' || c == '%' || (c == '.' && name.size() == 1) ? fmt::format("%{:02X}", int(c))
+                                                                      : std::string(1, c);
+    return out;
+}
+
+std::string decoded(const std::string& name)
+{
+    std::string out;
+    for (std::size_t i = 0; i < name.size(); ++i)
+    {
+        const std::string code = name.substr(i, 3);
+        const char plain = code == "%2F" ? '/' : code == "%25" ? '%' : code == "%2E" ? '.' : '\0';
+        out += plain ? plain : name[i];
+        i += plain ? 2 : 0;
+    }
+    return out;
+}
+
+void writeRoot(Hdf5File& file, const state::State& state)
+{
+    file.setAttribute("/", "format", std::string(formatName));
+    file.setAttribute("/", "formatVersion", formatVersion);
+    file.setAttribute("/", "dimension", Index(state.particles.dim));
+    file.setAttribute("/", "time", state.time);
+    file.setAttribute("/", "step", state.step);
+    file.setAttribute("/", "deltaT", state.deltaT);
+    file.setAttribute("/", "slabs", state.slabs);
+    file.setAttribute("/", "seedSpacing", state.seedSpacing);
+    file.setAttribute("/", "nextId", state.nextId);
+    file.setAttribute("/", "materials", state.materials);
+    file.writeScalar("/grid/cellSize", state.grid.h, "m");
+    file.write<double>("/grid/origin", state.grid.origin, {3}, "m");
+    file.write<Index>("/grid/cells", state.grid.cells, {3}, "1");
+    file.setAttribute("/grid", "dimension", Index(state.grid.dim));
+}
+
+void readRoot(const Hdf5File& file, state::State& state)
+{
+    state.time = file.realAttribute("/", "time");
+    state.step = file.integerAttribute("/", "step");
+    state.deltaT = file.realAttribute("/", "deltaT");
+    state.slabs = file.integerAttribute("/", "slabs");
+    state.seedSpacing = file.vectorAttribute("/", "seedSpacing");
+    state.nextId = file.integerAttribute("/", "nextId");
+    state.materials = file.textsAttribute("/", "materials");
+    state.grid.h = file.readReal("/grid/cellSize");
+    const auto origin = file.read<double>("/grid/origin", {3});
+    const auto cells = file.read<Index>("/grid/cells", {3});
+    std::copy(origin.begin(), origin.end(), state.grid.origin.begin());
+    std::copy(cells.begin(), cells.end(), state.grid.cells.begin());
+    state.grid.dim = int(file.integerAttribute("/grid", "dimension"));
+}
+
+void writeParticles(Hdf5File& file, const state::Particles& p)
+{
+    const Index n = p.size();
+    const int dim = p.dim;
+    const Index s = stressComponents(dim);
+    const std::string measure = dim == 2 ? "m^2" : "m^3";
+    const auto plain = [&]<class T>(const std::string& name, const state::Column<T>& column, const std::string& unit) {
+        file.write<T>("/particles/" + name, std::span<const T>(column.data(), std::size_t(n)), {n}, unit);
+    };
+    file.write<double>("/particles/position", interleaved(p.x, dim, n), {n, dim}, "m");
+    file.write<double>("/particles/velocity", interleaved(p.v, dim, n), {n, dim}, "m/s");
+    file.write<double>("/particles/stress", interleaved(p.stress, int(s), n), {n, s}, "Pa");
+    file.setAttribute("/particles/stress", "components",
+                      std::vector<std::string>(stressNames.begin(), stressNames.begin() + s));
+    file.write<double>("/particles/deformationGradient", interleaved(p.F, dim * dim, n), {n, dim, dim}, "1");
+    file.write<double>("/particles/length0", interleaved(p.length0, dim, n), {n, dim}, "m");
+    plain("mass", p.mass, dim == 2 ? "kg/m" : "kg");
+    plain("volume0", p.volume0, measure);
+    plain("volume", p.volume, measure);
+    plain("id", p.id, "1");
+    plain("sortKey", p.sortKey, "1");
+    plain("material", p.material, "1");
+    plain("generation", p.generation, "1");
+}
+
+void readParticles(const Hdf5File& file, state::Particles& p)
+{
+    const int dim = p.dim;
+    const Shape shape = file.shape("/particles/position");
+    const Index n = shape.empty() ? 0 : shape.front();
+    const int s = stressComponents(dim);
+    // The first array is read before anything is allocated: it proves that the file holds n particles.
+    const auto position = file.read<double>("/particles/position", {-1, dim});
+    const auto plain = [&]<class T>(const std::string& name, state::Column<T>& column) {
+        const auto values = file.read<T>("/particles/" + name, {n});
+        std::copy(values.begin(), values.end(), column.begin());
+    };
+    p.resize(n);
+    deal(position, dim, n, p.x);
+    deal(file.read<double>("/particles/velocity", {n, dim}), dim, n, p.v);
+    deal(file.read<double>("/particles/stress", {n, s}), s, n, p.stress);
+    deal(file.read<double>("/particles/deformationGradient", {n, dim, dim}), dim * dim, n, p.F);
+    deal(file.read<double>("/particles/length0", {n, dim}), dim, n, p.length0);
+    plain("mass", p.mass);
+    plain("volume0", p.volume0);
+    plain("volume", p.volume);
+    plain("id", p.id);
+    plain("sortKey", p.sortKey);
+    plain("material", p.material);
+    plain("generation", p.generation);
+    p.padLastChunk();
+}
+
+void writeLedger(Hdf5File& file, const state::Ledger& ledger, int dim)
+{
+    forEachLedgerEntry(ledger, [&](const std::string& name, const auto& value, const std::string& unit) {
+        const std::string text = dim == 2 ? unit + "/m" : unit;
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vector3>)
+            file.write<double>("/ledger/" + name, value, {3}, text);
+        else
+            file.writeScalar("/ledger/" + name, value, unit == "1" ? unit : text);
+    });
+}
+
+void readLedger(const Hdf5File& file, state::Ledger& ledger)
+{
+    forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, Vector3>)
+        {
+            const auto values = file.read<double>("/ledger/" + name, {3});
+            std::copy(values.begin(), values.end(), value.begin());
+        }
+        else
+            value = file.read<Value>("/ledger/" + name, {}).front();
+    });
+}
+
+void writePatches(Hdf5File& file, const std::vector<state::SurfacePatch>& patches, int dim)
+{
+    file.makeGroup("/patches");
+    for (std::size_t i = 0; i < patches.size(); ++i)
+    {
+        const auto& patch = patches[i];
+        const std::string group = "/patches/" + encoded(patch.name);
+        if (patch.name.empty() || file.exists(group))
+            file.fail(group, "a patch needs a name of its own");
+        const Index n = patch.size();
+        const int edges = dim * (dim - 1);
+        file.write<double>(group + "/centre", interleaved(patch.centre, dim, n), {n, dim}, "m");
+        file.write<double>(group + "/edges", interleaved(patch.edges, edges, n), {n, edges}, "m");
+        file.setAttribute(group, "index", Index(i));
+    }
+}
+
+void readPatches(const Hdf5File& file, std::vector<state::SurfacePatch>& patches, int dim)
+{
+    const auto names = file.members("/patches");
+    std::vector<state::SurfacePatch> found(names.size());
+    for (const auto& name : names)
+    {
+        const std::string group = "/patches/" + name;
+        const Index place = file.integerAttribute(group, "index");
+        if (place < 0 || place >= Index(names.size()) || !found[std::size_t(place)].name.empty())
+            file.fail(group, "attribute index is not a place of its own in the list");
+        auto& patch = found[std::size_t(place)];
+        patch.name = decoded(name);
+        const auto centre = file.read<double>(group + "/centre", {-1, dim});
+        const int edges = dim * (dim - 1);
+        const Index n = Index(centre.size()) / dim;
+        const auto edge = file.read<double>(group + "/edges", {n, edges});
+        for (int k = 0; k < dim; ++k)
+            patch.centre[std::size_t(k)].resize(std::size_t(n));
+        for (int k = 0; k < edges; ++k)
+            patch.edges[std::size_t(k)].resize(std::size_t(n));
+        deal(centre, dim, n, patch.centre);
+        deal(edge, edges, n, patch.edges);
+    }
+    patches = std::move(found);
+}
+
+int readDimension(const Hdf5File& file)
+{
+    const std::string hint = "is this a state file of libmpm?";
+    if (!file.hasAttribute("/", "format") || !file.hasAttribute("/", "formatVersion"))
+        file.fail("/", "attribute format is missing; " + hint);
+    const std::string format = file.textAttribute("/", "format");
+    if (format != formatName)
+        file.fail("/", fmt::format("attribute format is \"{}\", \"{}\" expected; {}", format, formatName, hint));
+    const Index version = file.integerAttribute("/", "formatVersion");
+    if (version != formatVersion)
+        file.fail("/", fmt::format("attribute formatVersion is {}, this program reads {}", version, formatVersion));
+    const Index dim = file.integerAttribute("/", "dimension");
+    if (dim != 2 && dim != 3)
+        file.fail("/", fmt::format("attribute dimension is {}, allowed 2 or 3", dim));
+    return int(dim);
+}
+
+void sortByKeyAndId(state::Particles& p)
+{
+    std::vector<Index> order(std::size_t(p.size()));
+    std::iota(order.begin(), order.end(), Index(0));
+    const auto before = [&](Index a, Index b) {
+        const auto i = std::size_t(a), j = std::size_t(b);
+        return p.sortKey[i] != p.sortKey[j] ? p.sortKey[i] < p.sortKey[j] : p.id[i] < p.id[j];
+    };
+    if (std::is_sorted(order.begin(), order.end(), before))
+        return;
+    std::sort(order.begin(), order.end(), before);
+    p.permute(order);
+}
+
+void writeAll(const std::filesystem::path& name, const state::State& state)
+{
+    Hdf5File file = Hdf5File::create(name);
+    writeRoot(file, state);
+    writeParticles(file, state.particles);
+    writeLedger(file, state.ledger, state.particles.dim);
+    writePatches(file, state.patches, state.particles.dim);
+    file.makeGroup("/provenance");
+    for (const auto& [key, text] : state.provenance)
+        file.writeText("/provenance/" + encoded(key), text);
+    writeVisualisation(file, state.particles);
+    file.close();
+}
+} // namespace
+
+void writeState(const std::filesystem::path& timeFolder, const state::State& state)
+{
+    const auto file = timeFolder / stateFileName;
+    requireValid(state, file.string());
+    const bool folderIsOurs = !std::filesystem::exists(timeFolder);
+    makeFolder(timeFolder);
+    try
+    {
+        writeAll(temporaryName(file), state);
+        commitTemporary(file);
+    }
+    catch (const InputError&)
+    {
+        std::error_code ignored;
+        std::filesystem::remove(temporaryName(file), ignored);
+        if (folderIsOurs)
+            std::filesystem::remove(timeFolder, ignored); // only if empty
+        throw;
+    }
+}
+
+state::State readState(const std::filesystem::path& name)
+{
+    const Hdf5File file = Hdf5File::open(name);
+    const int dim = readDimension(file);
+    state::State state(dim);
+    readRoot(file, state);
+    readParticles(file, state.particles);
+    readLedger(file, state.ledger);
+    readPatches(file, state.patches, dim);
+    for (const auto& key : file.members("/provenance"))
+        state.provenance[decoded(key)] = file.readText("/provenance/" + key);
+    requireValid(state, name.string());
+    sortByKeyAndId(state.particles);
+    return state;
+}
+
+StateSummary readSummary(const std::filesystem::path& name)
+{
+    const Hdf5File file = Hdf5File::open(name);
+    StateSummary summary;
+    summary.dim = readDimension(file);
+    summary.time = file.realAttribute("/", "time");
+    summary.step = file.integerAttribute("/", "step");
+    const Shape shape = file.shape("/particles/mass");
+    if (shape.size() != 1)
+        file.fail("/particles/mass", "one value a particle expected");
+    summary.particles = shape.front();
+    for (const auto& field : file.members("/derived"))
+        summary.derived.push_back({field, file.textsAttribute("/derived/" + field, "components")});
+    return summary;
+}
+} // namespace mpm::output
