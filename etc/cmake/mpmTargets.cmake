@@ -12,10 +12,13 @@ if(MPM_NATIVE)
     target_compile_options(mpmKernelFlags INTERFACE -march=native -mprefer-vector-width=512)
 endif()
 
-# mpm_utility(name LIBS...): one thin main, utilities/<name>/<name>.cpp, put into build/bin.
+# mpm_utility(name LIBS...): one thin main, utilities/<name>/<name>.cpp, put into build/bin. The target `utilities`
+# builds them all, without the tests.
+add_custom_target(utilities)
 function(mpm_utility name)
     add_executable(${name} ${name}/${name}.cpp)
     target_link_libraries(${name} PRIVATE mpm::core mpmWarnings ${ARGN})
+    add_dependencies(utilities ${name})
 endfunction()
 
 # mpm_test(name LIBS...): one Catch2 program from <name>.cpp in the current folder; its cases become ctest tests whose

@@ -1,0 +1,118 @@
+"""What the collapsing soil column must show: collapsingSoilColumn.py CASE scheme | heap | full
+
+    scheme   any stable scheme on any of the two grids: it runs to the end, keeps its books and moves as it should
+    heap     also the shape of the heap, the number of particles and the mirror symmetry before splitting
+    full     also what Allrun leaves: smoothed stress, the refined case, figures
+"""
+
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+from history import COLUMNS, History, Report, energy_mismatch
+
+MASS = 4.0 * 8.0 * 1000.0
+GRAVITY = 9.8
+
+
+def books(report, history):
+    """Conservation, in every row."""
+    time = history["time"]
+    report.equal("columns of history.csv", history.header, COLUMNS)
+    report.check("end time", time[-1], 2.5 * (1 - 1e-12), 2.5 * (1 + 1e-12))
+    report.check("all numbers finite", float(np.isfinite(history.table).all()), 1, 1)
+    report.check("largest relative error of mass", np.abs(history["mass"] / MASS - 1).max(), 0, 1e-12)
+
+    weight = MASS * GRAVITY * time
+    scale = weight[-1]
+    error = history["momentumY"] - (history["wallImpulseY"] - weight)
+    report.check("vertical momentum less impulses, of the weight's impulse", np.abs(error).max() / scale, 0, 1e-11)
+    error = history["momentumX"] - history["wallImpulseX"]
+    report.check("horizontal momentum less impulses, of the weight's impulse", np.abs(error).max() / scale, 0, 1e-11)
+    report.check("largest yield violation", history["maxYieldViolation"].max(), -1, 1e-9)
+
+    work = history.last("gravityWork")
+    report.check("gravity work [J]", work, 1e5, 1.2544e6)
+    report.check("largest |residual| of the final gravity work", np.abs(history["residual"]).max() / work, 0, 0.01)
+    difference = np.abs(np.abs(energy_mismatch(history)) - np.abs(history["residual"])).max()
+    report.check("residual against the other columns, of the gravity work", difference / work, 0, 1e-9)
+    for name in ("plasticDissipation", "frictionDissipation"):
+        report.check(f"final {name} [J]", history.last(name), 1e4, work)
+        report.check(f"largest fall of {name} from row to row, of its end", -np.diff(history[name]).min()
+                     / history.last(name), -1, 1e-6)
+
+
+def motion(report, history):
+    """What every stable scheme agrees on."""
+    time, kinetic = history["time"], history["kineticEnergy"]
+    report.check("peak kinetic energy [J]", kinetic.max(), 165e3, 195e3)
+    report.check("time of the peak [s]", time[kinetic.argmax()], 0.75, 0.9)
+    report.check("final kinetic energy of the peak", kinetic[-1] / kinetic.max(), 0, 0.01)
+    report.check("lowest particle centre [m]", history["minY"].min(), 0, 0.2)
+
+
+def shape_of_the_heap(report, history):
+    report.check("left toe [m]", history.last("minX"), -6.8, -5.8)
+    report.check("right toe [m]", history.last("maxX"), 9.8, 10.8)
+    report.check("crest [m]", history.last("maxY"), 3.6, 4.3)
+
+
+def splitting(report, history):
+    particles = history["particles"]
+    report.equal("particles at the start", int(particles[0]), 1800)
+    report.check("particles at the end", particles[-1], 8000, 11000)
+    report.equal("every split adds three", int((particles[-1] - 1800) % 3), 0)
+    whole = particles == 1800
+    asymmetry = np.abs(history["minX"] + history["maxX"] - 4)[whole].max()
+    report.check(f"asymmetry of the toes before the first split, t < {history['time'][whole][-1]:.3f} s [m]",
+                 asymmetry, 0, 1e-9)
+
+
+def stress_field(case, time):
+    """Raw and smoothed sigma_yy of a stored time, and the particles' masses."""
+    with h5py.File(Path(case) / time / "state.h5") as file:
+        smoothed = file["derived/smoothedStress"]
+        yy = [str(name) for name in np.atleast_1d(smoothed.attrs["components"]).astype(str)].index("yy")
+        return file["particles/stress"][:, 1], smoothed[:, yy], file["particles/mass"][:]
+
+
+def what_allrun_leaves(report, case):
+    for time in ("0.5", "1", "1.5", "2.5"):
+        raw, smooth, mass = stress_field(case, time)
+        report.check(f"mass-weighted mean of smoothed over raw sigma_yy at {time} s", (mass @ smooth) / (mass @ raw),
+                     1 - 1e-10, 1 + 1e-10)
+    noise = np.sqrt(((raw - smooth) ** 2).mean() / (smooth**2).mean())
+    report.check("RMS(raw - smoothed)/RMS(smoothed) sigma_yy at the end", noise, 0.8, 10)
+
+    refined = History(case / "refined")
+    coarse = History(case)
+    report.check("refined: particles over those of the coarse run at 1 s",
+                 refined["particles"][0] / coarse.at("particles", 1.0), 1.1, 4)
+    report.check("refined: first row [s]", refined["time"][0], 1, 1.0011)
+    report.check("refined: end [s]", refined.last("time"), 2.5 * (1 - 1e-12), 2.5 * (1 + 1e-12))
+    report.check("refined: largest relative error of mass", np.abs(refined["mass"] / MASS - 1).max(), 0, 1e-12)
+    for side in ("minX", "maxX", "maxY"):
+        report.check(f"refined: {side} against the coarse run [m]", refined.last(side) - coarse.last(side), -1, 1)
+    for suffix, magic in ((".png", b"\x89PNG"), (".svg", b"<?xml")):
+        figures = list((case / "postProcessing").rglob("*" + suffix))
+        report.check(f"figures {suffix}", len(figures), 2, 100)
+        report.equal(f"figures {suffix} are what they say",
+                     [figure.name for figure in figures if not figure.read_bytes().startswith(magic)], [])
+
+
+def main():
+    case, kind = Path(sys.argv[1]), sys.argv[2]
+    report, history = Report(), History(case)
+    books(report, history)
+    motion(report, history)
+    if kind != "scheme":
+        shape_of_the_heap(report, history)
+        splitting(report, history)
+    if kind == "full":
+        what_allrun_leaves(report, case)
+    return report.exit_code()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
