@@ -6,7 +6,18 @@
 /// (later acceleration, or the velocity strains are taken from).
 namespace mpm
 {
-typedef double Record __attribute__((vector_size(64), may_alias));
+typedef double Record __attribute__((vector_size(64)));
+typedef double AliasingRecord __attribute__((vector_size(64), may_alias));
+
+/// Eight doubles of a column that starts on a 64-byte boundary.
+inline Record load(const double* p)
+{
+    return *reinterpret_cast<const AliasingRecord*>(p);
+}
+inline void store(double* p, const Record& r)
+{
+    *reinterpret_cast<AliasingRecord*>(p) = r;
+}
 
 /// Transposes an 8 x 8 block in place: eight records of eight lanes become eight columns and back.
 inline void transpose(Record (&r)[8])

@@ -12,13 +12,17 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
 {
     visit("plasticDissipation", ledger.plasticDissipation, "J");
     visit("frictionDissipation", ledger.frictionDissipation, "J");
-    visit("wallNormalLoss", ledger.wallNormalLoss, "J");
+    visit("wallLoss", ledger.wallLoss, "J");
     visit("splitMergeLoss", ledger.splitMergeLoss, "J");
     visit("transferLoss", ledger.transferLoss, "J");
+    visit("pendingForceWork", ledger.pendingForceWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
-    visit("initialEnergy", ledger.initialEnergy, "J");
+    visit("bodyForceWork", ledger.bodyForceWork, "J");
+    visit("kineticEnergy", ledger.kineticEnergy, "J");
+    visit("initialKineticEnergy", ledger.initialKineticEnergy, "J");
+    visit("initialStrainEnergy", ledger.initialStrainEnergy, "J");
     visit("wallImpulse", ledger.wallImpulse, "N s");
     visit("gravityImpulse", ledger.gravityImpulse, "N s");
     visit("tractionImpulse", ledger.tractionImpulse, "N s");
@@ -27,8 +31,10 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("apexReturns", ledger.apexReturns, "1");
     visit("splits", ledger.splits, "1");
     visit("splitsPutOff", ledger.splitsPutOff, "1");
+    visit("splitsCapped", ledger.splitsCapped, "1");
+    visit("wallContacts", ledger.wallContacts, "1");
 
     // A new member of Ledger must be added above, or a restart would lose it.
-    static_assert(sizeof(state::Ledger) == 25 * 8);
+    static_assert(sizeof(state::Ledger) == 31 * 8);
 }
 } // namespace mpm::output

@@ -37,7 +37,6 @@ struct Ledger
     Index splitsPutOff = 0;        ///< splits put off at a wall
     Index splitsCapped = 0;        ///< splits refused by the caps on size and count
     Index wallContacts = 0;        ///< nodes and steps at which a friction wall pressed
-    bool started = false;          ///< initial values are booked
 };
 
 /// A named part of the body's surface, carried with the material: segments in 2D, triangles in 3D. Element e has its

@@ -65,8 +65,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     for (Index i = 0; i < p.size(); ++i)
         for (int a = 0; a < dim; ++a)
             kinetic += 0.5 * p.mass[std::size_t(i)] * p.v[a][std::size_t(i)] * p.v[a][std::size_t(i)];
-    if (!state.ledger.started)
-        state.ledger.kineticEnergy = state.ledger.initialKineticEnergy = kinetic;
+    if (state.step == 0)
+        state.ledger.kineticEnergy = kinetic;
 }
 
 // One step ------------------------------------------------------------------------------------------------------------

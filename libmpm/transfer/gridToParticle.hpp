@@ -99,7 +99,7 @@ void gatherChunk(const ChunkWeights<dim, Shape>& w, int count, const state::Node
         }
         transpose(value);
         for (int k = 0; k < 8; ++k)
-            *reinterpret_cast<Record*>(&out.value[k][g]) = value[k];
+            store(&out.value[k][g], value[k]);
         if constexpr (gradients)
             for (int a = 0; a < dim; ++a)
             {
@@ -108,7 +108,7 @@ void gatherChunk(const ChunkWeights<dim, Shape>& w, int count, const state::Node
                     column[l] = gradient[l][a];
                 transpose(column);
                 for (int k = 0; k < 8; ++k)
-                    *reinterpret_cast<Record*>(&out.gradient[a][k][g]) = column[k];
+                    store(&out.gradient[a][k][g], column[k]);
             }
     }
 }

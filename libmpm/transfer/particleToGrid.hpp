@@ -98,31 +98,32 @@ struct ChunkRecords
                const double (*bodyForce)[lanes])
     {
         static constexpr int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; // stress columns of sigma_k
-        const Record* m = reinterpret_cast<const Record*>(p.mass.data() + first);
-        const Record* volume = reinterpret_cast<const Record*>(p.volume.data() + first);
         for (int g = 0; g < lanes / 8; ++g)
         {
-            Record r[8] = {m[g]};
+            const Record m = load(p.mass.data() + first + 8 * g);
+            Record r[8] = {m};
             for (int k = 0; k < dim; ++k)
             {
-                r[1 + k] = m[g] * *reinterpret_cast<const Record*>(velocity[k] + 8 * g);
+                r[1 + k] = m * load(velocity[k] + 8 * g);
                 if (forces && bodyForce)
-                    r[1 + dim + k] = m[g] * *reinterpret_cast<const Record*>(&bodyForce[k][8 * g]);
+                    r[1 + dim + k] = m * load(&bodyForce[k][8 * g]);
             }
             transpose(r);
             for (int l = 0; l < 8; ++l)
                 a[8 * g + l] = r[l];
             if constexpr (forces)
+            {
+                const Record volume = load(p.volume.data() + first + 8 * g);
                 for (int row = 0; row < dim; ++row)
                 {
                     Record s[8] = {};
                     for (int k = 0; k < dim; ++k)
-                        s[1 + dim + k] =
-                            -volume[g] * *reinterpret_cast<const Record*>(p.stress[component[row][k]].data() + first + 8 * g);
+                        s[1 + dim + k] = -volume * load(p.stress[component[row][k]].data() + first + 8 * g);
                     transpose(s);
                     for (int l = 0; l < 8; ++l)
                         b[8 * g + l][row] = s[l];
                 }
+            }
         }
     }
 };

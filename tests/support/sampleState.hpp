@@ -50,9 +50,10 @@ inline state::State sampleState(int dim, Index n)
     state.materials = {"soil", "rock"};
     auto& ledger = state.ledger;
     double value = 0.1;
-    for (double* entry : {&ledger.plasticDissipation, &ledger.frictionDissipation, &ledger.wallNormalLoss,
+    for (double* entry : {&ledger.plasticDissipation, &ledger.frictionDissipation, &ledger.wallLoss,
                           &ledger.splitMergeLoss, &ledger.transferLoss, &ledger.gravityWork, &ledger.tractionWork,
-                          &ledger.apexVolume, &ledger.initialEnergy, &ledger.splitAngularMomentum})
+                          &ledger.apexVolume, &ledger.bodyForceWork, &ledger.kineticEnergy, &ledger.initialKineticEnergy,
+                          &ledger.initialStrainEnergy, &ledger.pendingForceWork, &ledger.splitAngularMomentum})
         *entry = (value *= -1.7);
     for (Vector3* entry :
          {&ledger.wallImpulse, &ledger.gravityImpulse, &ledger.tractionImpulse, &ledger.initialMomentum})
