@@ -50,10 +50,16 @@ std::size_t editDistance(const std::string& a, const std::string& b)
 
 std::string nearestWord(const std::string& word, const std::vector<std::string>& candidates)
 {
+    constexpr std::size_t longestWord = 64, mostCandidates = 2000; // hostile text must not buy minutes of comparing
     std::string best;
+    if (word.size() > longestWord)
+        return best;
     std::size_t bestDistance = 2 + word.size() / 3;
-    for (const auto& candidate : candidates)
+    for (std::size_t i = 0; i < std::min(candidates.size(), mostCandidates); ++i)
     {
+        const std::string& candidate = candidates[i];
+        if (candidate.size() > word.size() + bestDistance)
+            continue;
         const std::size_t d = editDistance(lower(word), lower(candidate));
         if (d < bestDistance)
         {

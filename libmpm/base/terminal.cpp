@@ -8,8 +8,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace mpm {
-namespace {
+namespace mpm
+{
+namespace
+{
 constexpr double redrawSeconds = 0.1;   // on a terminal
 constexpr double lineSeconds = 30;      // in a file
 constexpr double measureSeconds = 0.25; // shorter stretches are noise
@@ -148,7 +150,8 @@ void Progress::draw(double now, const std::string& details)
                                           left < 0 || done >= 1 ? "" : ", " + formatDuration(left) + " left");
     const std::string state = fmt::format("time {:.6g} s{}{}  {}", now, details.empty() ? "" : "  ", details, times);
     std::ostream& out = *surroundings_.out;
-    if (surroundings_.terminal) {
+    if (surroundings_.terminal)
+    {
         constexpr int barWidth = 20;
         const int filled = int(done * barWidth);
         std::string line = fmt::format("{} [{}{}] {:3.0f} %  {}", what_, std::string(std::size_t(filled), '='),
@@ -158,7 +161,8 @@ void Progress::draw(double now, const std::string& details)
         const std::size_t length = columns(line);
         out << '\r' << line << std::string(lineLength_ > length ? lineLength_ - length : 0, ' ') << std::flush;
         lineLength_ = length;
-    } else
+    }
+    else
         out << fmt::format("{}: {:3.0f} %  {}\n", what_, std::floor(done * 100), state) << std::flush;
     lastDrawn_ = surroundings_.clock();
     lastTenth_ = int(done * 10 + 1e-9);
@@ -194,18 +198,21 @@ std::string Table::text(int indent) const
         count = std::max(count, cells.size());
     std::vector<std::size_t> width(count, 0);
     std::vector<bool> right(count, !rows_.empty()); // a column of numbers, empty cells aside, stands to the right
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
+    {
         if (i < heads_.size())
             width[i] = columns(heads_[i]);
         for (const auto& cells : rows_)
-            if (i < cells.size()) {
+            if (i < cells.size())
+            {
                 width[i] = std::max(width[i], columns(cells[i]));
                 right[i] = right[i] && (cells[i].empty() || looksLikeNumber(cells[i]));
             }
     }
     const auto line = [&](const std::vector<std::string>& cells) {
         std::string out(std::size_t(indent), ' ');
-        for (std::size_t i = 0; i < cells.size(); ++i) {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+        {
             const std::string blanks(width[i] - columns(cells[i]), ' ');
             out += (i == 0 ? "" : "  ") + (right[i] ? blanks + cells[i] : cells[i] + blanks);
         }

@@ -13,7 +13,8 @@
 #include <string>
 #include <vector>
 
-namespace mpm {
+namespace mpm
+{
 /// "0.42 s", "12.3 s", "1 min 05 s", "2 h 03 min", "4 d 01 h"; "unknown" unless finite and not negative.
 std::string formatDuration(double seconds);
 /// "512 B", "1.5 kB", "3.2 MB", ... (powers of 1000).

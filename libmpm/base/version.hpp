@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-namespace mpm {
+namespace mpm
+{
 /// "0.1.0"
 std::string projectVersion();
 /// Short git revision of the source at configure time, with "+" when files were changed; "unknown" outside git.

@@ -10,8 +10,10 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-namespace mpm::cases {
-namespace {
+namespace mpm::cases
+{
+namespace
+{
 constexpr int mostThreads = 1024;
 
 std::vector<ExtraOption> allOptions(const ApplicationInfo& info)
@@ -19,7 +21,8 @@ std::vector<ExtraOption> allOptions(const ApplicationInfo& info)
     std::vector<ExtraOption> all;
     if (info.usesCase)
         all.push_back({"case", "DIR", "the case folder (default: the current one)"});
-    if (info.usesTime) {
+    if (info.usesTime)
+    {
         all.push_back({"time", "RANGES", "stored times to work on, like '0.5,1:2' or ':1' (default: all)"});
         all.push_back({"latestTime", "", "work on the latest stored time only"});
     }
@@ -51,7 +54,8 @@ std::string usage(const ExtraOption& option)
     const std::size_t dashes = token.find_first_not_of('-');
     const std::string bare = dashes == std::string::npos ? "" : token.substr(dashes, token.find('=') - dashes);
     std::vector<std::string> typed, names;
-    for (const ExtraOption& option : options) {
+    for (const ExtraOption& option : options)
+    {
         typed.push_back(usage(option));
         names.push_back(option.name);
     }
@@ -78,7 +82,8 @@ std::map<std::string, std::vector<std::string>> parse(const std::vector<std::str
                                                       const std::vector<ExtraOption>& options)
 {
     std::map<std::string, std::vector<std::string>> given;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+    {
         const std::string& token = arguments[i];
         const ExtraOption* option = token.starts_with('-') ? findOption(options, token.substr(1)) : nullptr;
         if (!option)
@@ -111,7 +116,8 @@ int threadNumber(const std::string& source, const std::string& text)
 Options toOptions(std::map<std::string, std::vector<std::string>> given, const ApplicationInfo& info)
 {
     Options options;
-    for (auto& [name, values] : given) {
+    for (auto& [name, values] : given)
+    {
         if (findOption(info.options, name))
             options.extra[name] = std::move(values);
         else if (name == "case")
@@ -172,7 +178,8 @@ int run(const std::vector<std::string>& arguments, const ApplicationInfo& info,
         if (argument == "-help")
             return print(helpPage(info)), 0;
     const auto given = parse(arguments, known);
-    if (given.count("version")) {
+    if (given.count("version"))
+    {
         print(info.name + " of libmpm\n");
         for (const std::string& line : versionLines())
             print("    " + line + "\n");
@@ -236,24 +243,37 @@ std::string helpPage(const ApplicationInfo& info)
 
 int runApplication(int argc, char** argv, const ApplicationInfo& info, const std::function<int(const Options&)>& body)
 {
-    try {
+    try
+    {
         const int code = run(std::vector<std::string>(argv + (argc > 0), argv + argc), info, body);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
             return complain(info, 1, "the standard output could not be written (is the disk full?)");
         return code;
-    } catch (const InputError& error) {
+    }
+    catch (const InputError& error)
+    {
         return complain(info, 1, error.what());
-    } catch (const std::filesystem::filesystem_error& error) {
+    }
+    catch (const std::filesystem::filesystem_error& error)
+    {
         return complain(info, 1, error.what());
-    } catch (const StepError& error) {
+    }
+    catch (const StepError& error)
+    {
         return complain(info, 2, error.what());
-    } catch (const std::bad_alloc&) {
+    }
+    catch (const std::bad_alloc&)
+    {
         return complain(info, 2, "not enough memory; fewer particles or cells need less");
-    } catch (const std::exception& error) {
+    }
+    catch (const std::exception& error)
+    {
         return complain(
             info, 3,
             fmt::format("{} (a mistake in {} itself, not in your input: please report it)", error.what(), info.name));
-    } catch (...) {
+    }
+    catch (...)
+    {
         return complain(info, 3,
                         fmt::format("unknown failure (a mistake in {} itself, not in your input: please "
                                     "report it)",

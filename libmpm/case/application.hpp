@@ -25,7 +25,8 @@
 #include <string>
 #include <vector>
 
-namespace mpm::cases {
+namespace mpm::cases
+{
 /// What the user typed.
 struct Options
 {

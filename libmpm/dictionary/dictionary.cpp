@@ -6,10 +6,20 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace mpm::dictionary {
-namespace {
+namespace mpm::dictionary
+{
+namespace
+{
 constexpr const char* header = "FoamFile";
+
+/// The case folder of case/system/file and case/constant/file; another file's own folder.
+std::filesystem::path caseOf(const std::filesystem::path& file)
+{
+    const auto folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+    const auto name = folder.filename();
+    return name == "system" || name == "constant" ? folder.parent_path() : folder;
 }
+} // namespace
 
 Dictionary::Dictionary() : body_(std::make_unique<Body>())
 {
@@ -25,7 +35,7 @@ Dictionary& Dictionary::operator=(Dictionary&&) noexcept = default;
 Dictionary Dictionary::readFile(const std::filesystem::path& file, const std::filesystem::path& root)
 {
     Dictionary dict;
-    dict.body_->root = root.empty() ? std::filesystem::absolute(file).parent_path().parent_path() : root;
+    dict.body_->root = root.empty() ? caseOf(file) : root;
     dict.body_->owned = Parser(dict.body_->root).parseFile(file);
     dict.body_->node = dict.body_->owned.get();
     return dict;
@@ -52,13 +62,11 @@ Location Dictionary::where(const std::string& word) const
 
 void Dictionary::Body::remember(Asked question)
 {
-    for (Asked& before : asked)
-        if (before.word == question.word) {
-            if (before.type.empty()) // known by found() only
-                before = std::move(question);
-            return;
-        }
-    asked.push_back(std::move(question));
+    const auto [place, isNew] = askedAt.emplace(question.word, asked.size());
+    if (isNew)
+        asked.push_back(std::move(question));
+    else if (asked[place->second].type.empty()) // known by found() only
+        asked[place->second] = std::move(question);
 }
 
 std::vector<std::string> Dictionary::Body::knownWords() const
@@ -79,7 +87,8 @@ Dictionary& Dictionary::Body::open(NodeEntry& entry)
 {
     entry.read = true;
     auto& place = opened[entry.word];
-    if (!place) {
+    if (!place)
+    {
         place = std::make_unique<Dictionary>();
         place->body_->owned.reset();
         place->body_->node = entry.dict.get();
@@ -134,7 +143,8 @@ void Dictionary::set(const std::string& word, const std::string& value, const st
 {
     Node* node = body_->node;
     std::string last = word;
-    for (std::size_t dot; (dot = last.find('.')) != std::string::npos; last = last.substr(dot + 1)) {
+    for (std::size_t dot; (dot = last.find('.')) != std::string::npos; last = last.substr(dot + 1))
+    {
         NodeEntry* outer = node->find(last.substr(0, dot));
         if (!outer || !outer->dict)
             throw InputError({where, 0}, fmt::format("{}: found no dictionary {}{}", shownText(word),
@@ -156,6 +166,13 @@ void Dictionary::set(const std::string& word, const std::string& value, const st
         node->add(std::move(entry));
 }
 
+void Dictionary::checkDimensions(const Dimensions& expected, const std::string& word) const
+{
+    const Dimensions given = get<Dimensions>({word, "exponents of kg m s K mol A cd", unit::none, {}, expected});
+    if (given != expected)
+        fail(word, exponentsText(given), fmt::format("{} ({})", exponentsText(expected), unitText(expected)));
+}
+
 std::string Dictionary::text() const
 {
     return dictionaryText(*body_->node);
@@ -170,7 +187,8 @@ std::vector<Asked> Dictionary::schema() const
 {
     std::vector<Asked> out = body_->asked;
     for (const auto& [name, dict] : body_->opened)
-        for (Asked inner : dict->schema()) {
+        for (Asked inner : dict->schema())
+        {
             inner.word = name + "." + inner.word;
             out.push_back(std::move(inner));
         }
@@ -180,16 +198,22 @@ std::vector<Asked> Dictionary::schema() const
 void Dictionary::rejectUnread() const
 {
     const auto known = body_->knownWords();
-    for (const NodeEntry& entry : body_->node->entries) {
+    const std::vector<std::string> shown(known.begin(),
+                                         known.begin() + std::min<std::ptrdiff_t>(40, std::ssize(known)));
+    for (const NodeEntry& entry : body_->node->entries)
+    {
         if (entry.word == header || (entry.expanded && !entry.read))
             continue;
         const auto opened = body_->opened.find(entry.word);
         if (entry.dict && opened != body_->opened.end())
             opened->second->rejectUnread();
-        else if (!entry.read) {
-            const bool isKnown = std::find(known.begin(), known.end(), entry.word) != known.end();
+        else if (!entry.read)
+        {
+            const bool isKnown = body_->askedAt.count(entry.word) > 0;
             fail(entry.word, isKnown ? "a word that has no effect here" : "an unknown word",
-                 known.empty() ? "nothing here" : joinWords(known) + didYouMean(entry.word, known));
+                 known.empty() ? "no words here"
+                               : joinWords(shown, known.size() > shown.size() ? ", " : " or ") +
+                                     (known.size() > shown.size() ? " ..." : "") + didYouMean(entry.word, known));
         }
     }
 }
@@ -198,15 +222,18 @@ std::string dictionaryText(const Node& node, int indent)
 {
     const std::string blanks(std::size_t(indent), ' ');
     std::string out;
-    for (const NodeEntry& entry : node.entries) {
-        if (entry.dict) {
+    for (const NodeEntry& entry : node.entries)
+    {
+        if (entry.dict)
+        {
             out +=
                 fmt::format("{0}{1}\n{0}{{\n{2}{0}}}\n", blanks, entry.word, dictionaryText(*entry.dict, indent + 4));
             continue;
         }
         out += fmt::format("{}{:<15}", blanks, entry.word);
         const Token* before = nullptr;
-        for (const Token& token : entry.value) {
+        for (const Token& token : entry.value)
+        {
             if (!before || !(before->is('(') || before->is('[') || token.is(')') || token.is(']')))
                 out += ' ';
             out += token.source();

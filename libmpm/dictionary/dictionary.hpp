@@ -24,11 +24,13 @@
 #include <string>
 #include <vector>
 
-namespace mpm::dictionary {
+namespace mpm::dictionary
+{
 /// Exponents of [kg m s K mol A cd].
 using Dimensions = std::array<double, 7>;
 
-namespace unit {
+namespace unit
+{
 inline constexpr Dimensions none{};
 inline constexpr Dimensions length{0, 1, 0};
 inline constexpr Dimensions time{0, 0, 1};
@@ -87,8 +89,8 @@ struct Asked
 class Dictionary
 {
   public:
-    /// Reads a file. #include may reach files below `root` (default: the file's folder's parent, which is the case
-    /// folder) and below the project's etc folder, nothing else.
+    /// Reads a file. #include may reach files below `root` (default: the case folder of a file in system or constant,
+    /// else the file's own folder) and below the project's etc folder, nothing else.
     /// Throws InputError: unreadable file, missing ';', unbalanced braces, unknown directive or macro, word given
     /// twice.
     static Dictionary readFile(const std::filesystem::path& file, const std::filesystem::path& root = {});
@@ -113,6 +115,9 @@ class Dictionary
     /// A name out of a catalogue; an unknown one is an error with the list and the nearest name.
     std::string choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,
                        const std::optional<std::string>& fallback = std::nullopt) const;
+
+    /// The entry `dimensions [0 1 -2 0 0 0 0];` of constant/g and its like: an error if it is there and says otherwise.
+    void checkDimensions(const Dimensions& expected, const std::string& word = "dimensions") const;
 
     /// Is the entry or dictionary there? Asking makes the word known (not read).
     bool found(const std::string& word) const;

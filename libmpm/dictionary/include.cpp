@@ -9,8 +9,10 @@
 
 namespace fs = std::filesystem;
 
-namespace mpm::dictionary {
-namespace {
+namespace mpm::dictionary
+{
+namespace
+{
 bool isInside(const fs::path& file, const fs::path& folder)
 {
     if (folder.empty())
@@ -46,10 +48,10 @@ constexpr KnownDirective refused[] = {
     {"else", noBranch},
     {"endif", noBranch},
     {"inputMode", "a word replaces what came through #include or a macro, and nothing else"},
-    {"inputSyntax", nullptr},
+    {"inputSyntax", "there is one syntax here"},
     {"remove", "leave the word out"},
-    {"includeFunc", nullptr},
-    {"message", nullptr},
+    {"includeFunc", "there are no function objects here"},
+    {"message", "a dictionary says nothing by itself"},
     {"includeIfPresent", "a file that may be missing would change a run silently: use #include"},
     {"sinclude", "a file that may be missing would change a run silently: use #include"},
     {"sincludeEtc", "a file that may be missing would change a run silently: use #includeEtc"},
@@ -67,12 +69,12 @@ std::unique_ptr<Node> Parser::parseFile(const fs::path& file)
     return top;
 }
 
-/// A file's text; `from` is the #include that asks for it.
-std::string Parser::load(const fs::path& file, const Location* from)
+/// A file's text; `from` is the file name of the #include that asks for it, null at the top.
+std::string Parser::load(const fs::path& file, const Token* from)
 {
     const auto fail = [&](const std::string& what) {
         if (from)
-            throw InputError(*from, fmt::format("#include {}: {}", shownText(file.string()), what));
+            throw InputError(from->where(), fmt::format("#include {}: {}", shownText(from->text), what));
         throw InputError({file.string(), 0}, what);
     };
     std::error_code error;
@@ -80,25 +82,30 @@ std::string Parser::load(const fs::path& file, const Location* from)
     if (status.type() == fs::file_type::not_found)
         fail("no such file");
     if (fs::is_directory(status))
-        fail("found a folder, allowed a dictionary file");
+        fail("found a folder, allowed a file");
     if (!fs::is_regular_file(status))
-        fail("found something that is not a regular file");
-    const auto size = fs::file_size(file, error);
-    if (!error && size > Limits::fileBytes)
-        fail(fmt::format("found {} bytes, allowed {}", size, Limits::fileBytes));
+        fail("found a device or a pipe, allowed a file");
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in)
         fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    std::string text(size, '\0');
-    in.read(text.data(), std::streamsize(size));
-    text.resize(std::size_t(in.gcount()));
+    std::string text;
+    std::vector<char> piece(1 << 16);
+    while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+    {
+        text.append(piece.data(), std::size_t(in.gcount()));
+        if (text.size() > Limits::fileBytes)
+            fail(fmt::format("found more than {} MB, too much for a dictionary", Limits::fileBytes >> 20));
+    }
+    if (in.bad())
+        fail(fmt::format("cannot be read: {}", std::strerror(errno)));
     return text;
 }
 
 void Parser::parseDirective(Node& node, Tokenizer& in, const Token& directive)
 {
-    if (directive.text == "include" || directive.text == "includeEtc") {
+    if (directive.text == "include" || directive.text == "includeEtc")
+    {
         const Token name = in.next();
         if (name.kind != Kind::text || name.line != directive.line)
             throw InputError(directive.where(),
@@ -107,14 +114,20 @@ void Parser::parseDirective(Node& node, Tokenizer& in, const Token& directive)
                                          directive.text, name.shown()));
         return include(node, directive, name);
     }
+    const std::string answer = directiveAnswer(directive.text);
+    throw InputError(directive.where(), fmt::format("found {}, allowed #include and #includeEtc{}{}", directive.shown(),
+                                                    answer.empty() ? "" : "; ", answer));
+}
+
+std::string directiveAnswer(const std::string& name)
+{
     for (const auto& known : refused)
-        if (directive.text == known.name)
-            throw InputError(directive.where(),
-                             fmt::format("found {}, allowed #include and #includeEtc{}", directive.shown(),
-                                         known.answer ? std::string("; ") + known.answer : ""));
-    const std::string nearest = nearestWord(directive.text, {"include", "includeEtc"});
-    throw InputError(directive.where(), fmt::format("found {}, allowed #include and #includeEtc{}", directive.shown(),
-                                                    nearest.empty() ? "" : "; did you mean '#" + nearest + "'?"));
+        if (name == known.name)
+            return known.answer;
+    const std::string nearest = nearestWord(name, {"include", "includeEtc"});
+    return nearest.empty()   ? "no such directive is known here"
+           : nearest == name ? "files are included between entries"
+                             : "did you mean '#" + nearest + "'?";
 }
 
 void Parser::include(Node& node, const Token& directive, const Token& name)
@@ -130,14 +143,16 @@ void Parser::include(Node& node, const Token& directive, const Token& name)
     fs::path file = name.text;
     if (directive.text == "includeEtc")
         file = etcFolder() / file;
-    else if (name.text[0] == '<') {
+    else if (name.text[0] == '<')
+    {
         const std::size_t close = name.text.find(">/");
         const std::string tag = close == std::string::npos ? "" : name.text.substr(1, close - 1);
         if (tag != "case" && tag != "constant" && tag != "system" && tag != "etc")
             fail("allowed <case>/, <constant>/, <system>/ or <etc>/ at its beginning");
         const fs::path rest = fs::path(name.text.substr(close + 2)).relative_path();
         file = tag == "etc" ? etcFolder() / rest : tag == "case" ? root_ / rest : root_ / tag / rest;
-    } else if (file.is_relative())
+    }
+    else if (file.is_relative())
         file = fs::path(*name.file).parent_path() / file;
 
     std::error_code none;
@@ -152,7 +167,7 @@ void Parser::include(Node& node, const Token& directive, const Token& name)
     if (++includes_ > Limits::includeCount)
         fail(fmt::format("is more than {} files", Limits::includeCount));
 
-    std::string text = load(file.lexically_normal(), &where);
+    std::string text = load(file.lexically_normal(), &name);
     charge(text.size(), where);
     reading_.push_back(real);
     ++layer_;

@@ -5,7 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-namespace mpm::dictionary {
+namespace mpm::dictionary
+{
 struct Node;
 
 /// `word value;` or `word { ... }`.
@@ -16,7 +17,6 @@ struct NodeEntry
     std::unique_ptr<Node> dict; ///< the nested dictionary, or null
     Location where;
     int layer = 0;         ///< 0 written in the file itself; +1 for every #include or `$dict;` it came through
-    int lastLine = 0;      ///< line of the ';'
     bool read = false;     ///< somebody asked for its value
     bool expanded = false; ///< a macro used it
 };

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-namespace mpm::dictionary {
-namespace {
+namespace mpm::dictionary
+{
+namespace
+{
 struct OpenBracket
 {
     char close;
@@ -31,14 +33,13 @@ std::unique_ptr<Node> Parser::parseText(std::string text, const std::string& nam
 std::vector<Token> Parser::parseValue(Node& node, const std::string& word, const std::string& text,
                                       const std::string& name)
 {
-    Tokenizer in(text + ";", name);
+    Tokenizer in(text + "\n;", name); // a comment at the end of the text hides no ';'
     Token key;
     key.kind = Kind::word;
     key.text = word;
     key.file = std::make_shared<const std::string>(name);
-    int lastLine = 0;
     Token first = in.next();
-    auto value = readValue(node, in, key, std::move(first), lastLine);
+    auto value = readValue(node, in, key, std::move(first));
     if (const Token more = in.next(); more.kind != Kind::end)
         throw InputError(
             {name, 0}, fmt::format("{}: found {} after the value, allowed one value", node.pathOf(word), more.shown()));
@@ -66,9 +67,11 @@ int Parser::depthOf(const Node& node) const
 /// Entries until the closing brace, or until the end of the file when `brace` is null.
 void Parser::parseBlock(Node& node, Tokenizer& in, const Token* brace)
 {
-    for (;;) {
+    for (;;)
+    {
         const Token token = in.next();
-        if (token.kind == Kind::end) {
+        if (token.kind == Kind::end)
+        {
             if (brace)
                 throw InputError(brace->where(), fmt::format("{}: found '{{' without its '}}'", node.path));
             return;
@@ -79,14 +82,16 @@ void Parser::parseBlock(Node& node, Tokenizer& in, const Token* brace)
             continue;
         if (token.kind == Kind::directive)
             parseDirective(node, in, token);
-        else if (token.kind == Kind::variable) {
+        else if (token.kind == Kind::variable)
+        {
             const Token after = in.next();
             if (!after.is(';'))
                 throw InputError(token.where(), fmt::format("found {} followed by {}, allowed '{};' (a macro cannot be "
                                                             "the word of an entry)",
                                                             token.shown(), after.shown(), token.source()));
             merge(node, token);
-        } else
+        }
+        else
             parseEntry(node, in, token);
     }
 }
@@ -123,7 +128,8 @@ std::unique_ptr<Node> Parser::newNode(Node& parent, const std::string& word, con
 
 void Parser::parseDictionary(Node& node, Tokenizer& in, const Token& key, const Token& brace)
 {
-    if (key.text == "FoamFile" && node.find("FoamFile")) {
+    if (key.text == "FoamFile" && node.find("FoamFile"))
+    {
         Node header; // of an included file: read for its syntax only
         header.path = "FoamFile";
         header.parent = &node;
@@ -139,6 +145,10 @@ void Parser::parseDictionary(Node& node, Tokenizer& in, const Token& key, const 
     dict.beingRead = true;
     parseBlock(dict, in, &brace);
     dict.beingRead = false;
+    if (NodeEntry* format = key.text == "FoamFile" ? dict.find("format") : nullptr)
+        if (format->value.size() != 1 || format->value[0].text != "ascii")
+            throw InputError(format->where, fmt::format("FoamFile.format: found {}, allowed ascii",
+                                                        format->value.empty() ? "nothing" : format->value[0].shown()));
 }
 
 void Parser::parsePlain(Node& node, Tokenizer& in, const Token& key, Token first)
@@ -148,7 +158,8 @@ void Parser::parsePlain(Node& node, Tokenizer& in, const Token& key, Token first
     entry.where = key.where();
     entry.layer = layer_;
     if (first.kind == Kind::variable) // `word $dict;` copies a dictionary
-        if (NodeEntry* source = lookUp(node, first.text); source && source->dict) {
+        if (NodeEntry* source = lookUp(node, first.text); source && source->dict)
+        {
             expand(node, first);
             if (const Token after = in.next(); !after.is(';'))
                 throw InputError(key.where(), fmt::format("{}: found {} after the dictionary {}, allowed ';'",
@@ -157,18 +168,38 @@ void Parser::parsePlain(Node& node, Tokenizer& in, const Token& key, Token first
             copyInto(*source->dict, *entry.dict, layer_ + 1, key.where());
             return place(node, std::move(entry), key.where());
         }
-    entry.value = readValue(node, in, key, std::move(first), entry.lastLine);
+    entry.value = readValue(node, in, key, std::move(first));
     place(node, std::move(entry), key.where());
 }
 
+namespace
+{
+/// The value of `path` did not end before `token`; it ends in the line `last`, unless its last word begins a
+/// dictionary.
+[[noreturn]] void failMissingEnd(const std::string& path, Location last, const std::vector<Token>& value,
+                                 const Token& token)
+{
+    const Token* found = &token;
+    if (const std::size_t n = value.size();
+        token.is('{') && n > 1 && value[n - 1].kind == Kind::word && value[n - 1].line > value[n - 2].line)
+    {
+        found = &value[n - 1];
+        last.line = value[n - 2].line;
+    }
+    throw InputError(last, fmt::format("{}: missing ';' at the end of this line (found {}{})", path, found->shown(),
+                                       found->line == last.line ? "" : fmt::format(" in line {}", found->line)));
+}
+} // namespace
+
 /// The tokens up to ';', beginning with `token`, macros and includes put in place.
-std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key, Token token, int& lastLine)
+std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key, Token token)
 {
     const std::string path = node.pathOf(key.text);
     std::vector<Token> value;
     std::vector<OpenBracket> open;
     int line = key.line;
-    for (;; token = in.next()) {
+    for (;; token = in.next())
+    {
         const bool ends = token.kind == Kind::end || token.is('{') || token.is('}');
         if (!open.empty() && (ends || token.is(';')))
             throw InputError(open.back().where, fmt::format("{}: found '{}' without its '{}'{}", path,
@@ -177,29 +208,28 @@ std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key
                                                                             "read here)"
                                                                           : ""));
         if (ends)
-            throw InputError({*key.file, line},
-                             fmt::format("{}: missing ';' at the end of this line (found {} {})", path, token.shown(),
-                                         token.line == line ? "instead" : fmt::format("in line {}", token.line)));
-        if (token.is(';')) {
-            lastLine = token.line;
+            failMissingEnd(path, {*key.file, line}, value, token);
+        if (token.is(';'))
             return value;
-        }
         line = token.line;
         charge(sizeof(Token) + token.text.size(), token.where());
-        if (token.kind == Kind::variable) {
+        if (token.kind == Kind::variable)
+        {
             appendVariable(node, key, token, value);
             continue;
         }
         if (token.kind == Kind::directive)
-            throw InputError(token.where(), fmt::format("{}: found {}, allowed a value (directives stand between "
-                                                        "entries)",
-                                                        path, token.shown()));
-        if (token.is('(') || token.is('[')) {
+            throw InputError(token.where(), fmt::format("{}: found {}, allowed a value ({})", path, token.shown(),
+                                                        directiveAnswer(token.text)));
+        if (token.is('(') || token.is('['))
+        {
             open.push_back({token.is('(') ? ')' : ']', token.where()});
             if (open.size() > Limits::nesting)
                 throw InputError(token.where(),
                                  fmt::format("{}: found lists nested deeper than {}", path, Limits::nesting));
-        } else if (token.is(')') || token.is(']')) {
+        }
+        else if (token.is(')') || token.is(']'))
+        {
             if (open.empty() || !token.is(open.back().close))
                 throw InputError(token.where(), fmt::format("{}: found {} without its '{}'", path, token.shown(),
                                                             token.is(')') ? '(' : '['));
@@ -214,7 +244,8 @@ void Parser::place(Node& node, NodeEntry entry, const Location& where)
 {
     charge(sizeof(NodeEntry) + sizeof(Node) + 4 * entry.word.size() + node.path.size(), where);
     NodeEntry* old = node.find(entry.word);
-    if (!old) {
+    if (!old)
+    {
         node.add(std::move(entry));
         return;
     }
@@ -231,9 +262,9 @@ void Parser::place(Node& node, NodeEntry entry, const Location& where)
                                      before, old->dict ? "a dictionary" : "a value"));
     old->where = where;
     old->layer = entry.layer;
-    if (!entry.dict) {
+    if (!entry.dict)
+    {
         old->value = std::move(entry.value);
-        old->lastLine = entry.lastLine;
         return;
     }
     old->dict->where = where;

@@ -11,14 +11,15 @@
 
 #include <filesystem>
 
-namespace mpm::dictionary {
+namespace mpm::dictionary
+{
 struct Limits
 {
-    static constexpr int nesting = 100;                              ///< braces, and brackets of a list
-    static constexpr int includeDepth = 10;                          ///< files within files
-    static constexpr int includeCount = 200;                         ///< #include directives of one dictionary
-    static constexpr std::uintmax_t fileBytes = 4u << 20;            ///< size of one file
-    static constexpr std::size_t treeBytes = std::size_t(256) << 20; ///< memory of the tree, macros expanded
+    static constexpr int nesting = 100;                             ///< braces, and brackets of a list
+    static constexpr int includeDepth = 10;                         ///< files within files
+    static constexpr int includeCount = 200;                        ///< #include directives of one dictionary
+    static constexpr std::uintmax_t fileBytes = 4u << 20;           ///< size of one file
+    static constexpr std::size_t treeBytes = std::size_t(64) << 20; ///< memory of the tree, macros expanded
 };
 
 class Parser
@@ -38,7 +39,7 @@ class Parser
     void parseEntry(Node& node, Tokenizer& in, const Token& key);
     void parseDictionary(Node& node, Tokenizer& in, const Token& key, const Token& brace);
     void parsePlain(Node& node, Tokenizer& in, const Token& key, Token first);
-    std::vector<Token> readValue(Node& node, Tokenizer& in, const Token& key, Token token, int& lastLine);
+    std::vector<Token> readValue(Node& node, Tokenizer& in, const Token& key, Token token);
     void parseDirective(Node& node, Tokenizer& in, const Token& directive);
     void include(Node& node, const Token& directive, const Token& name);
     void merge(Node& node, const Token& variable);
@@ -47,7 +48,7 @@ class Parser
     void appendVariable(Node& node, const Token& key, const Token& variable, std::vector<Token>& value);
     NodeEntry& expand(Node& node, const Token& variable);
     std::unique_ptr<Node> newNode(Node& parent, const std::string& word, const Location& where) const;
-    std::string load(const std::filesystem::path& file, const Location* from);
+    std::string load(const std::filesystem::path& file, const Token* from);
     void charge(std::size_t bytes, const Location& where);
     int depthOf(const Node& node) const;
 
@@ -57,6 +58,9 @@ class Parser
     int includes_ = 0;
     std::size_t bytes_ = 0;
 };
+
+/// Why a directive other than #include is refused, and what to write instead.
+std::string directiveAnswer(const std::string& name);
 
 /// Finds what `$name` means inside `node`, by OpenFOAM's rules: `name` here or in a dictionary around; `sub.name` here;
 /// `.name` here, `..name` one dictionary up, and so on; `:name` from the top. Null when there is no such entry.

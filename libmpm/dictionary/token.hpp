@@ -10,7 +10,8 @@
 #include <memory>
 #include <string>
 
-namespace mpm::dictionary {
+namespace mpm::dictionary
+{
 enum class Kind
 {
     word,

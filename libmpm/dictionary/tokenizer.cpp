@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-namespace mpm::dictionary {
-namespace {
+namespace mpm::dictionary
+{
+namespace
+{
 constexpr std::size_t longestWord = 1000;
 
 bool isBlank(char c)
@@ -38,13 +40,15 @@ bool hasNumberShape(const std::string& s)
     if (i < s.size() && s[i] == '-')
         ++i;
     digits += run();
-    if (i < s.size() && s[i] == '.') {
+    if (i < s.size() && s[i] == '.')
+    {
         ++i;
         digits += run();
     }
     if (digits == 0)
         return false;
-    if (i < s.size() && (s[i] == 'e' || s[i] == 'E')) {
+    if (i < s.size() && (s[i] == 'e' || s[i] == 'E'))
+    {
         ++i;
         if (i < s.size() && (s[i] == '+' || s[i] == '-'))
             ++i;
@@ -58,8 +62,9 @@ bool hasNumberShape(const std::string& s)
 std::string shownText(const std::string& text)
 {
     std::string out = "'";
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (i == 60)
+    for (std::size_t i = 0; i < text.size(); ++i)
+    {
+        if (i >= 60 && (text[i] & 0xC0) != 0x80) // not within a UTF-8 character
             return out + "...'";
         const auto c = static_cast<unsigned char>(text[i]);
         if (c < 32 || c == 127)
@@ -77,7 +82,8 @@ std::string Token::shown() const
 
 std::string Token::source() const
 {
-    switch (kind) {
+    switch (kind)
+    {
     case Kind::variable:
         return "$" + text;
     case Kind::directive:
@@ -113,7 +119,8 @@ Token Tokenizer::make(Kind kind, std::string text, int line) const
 void Tokenizer::skipBlockComment()
 {
     const int begin = line_;
-    for (at_ += 2; !(peek() == '*' && peek(1) == '/'); ++at_) {
+    for (at_ += 2; !(peek() == '*' && peek(1) == '/'); ++at_)
+    {
         if (over())
             fail(begin, "found a comment '/*' without its '*/'");
         line_ += peek() == '\n';
@@ -123,11 +130,14 @@ void Tokenizer::skipBlockComment()
 
 void Tokenizer::skipBlanks()
 {
-    for (; !over();) {
-        if (isBlank(peek())) {
+    for (; !over();)
+    {
+        if (isBlank(peek()))
+        {
             line_ += peek() == '\n';
             ++at_;
-        } else if (peek() == '/' && peek(1) == '/')
+        }
+        else if (peek() == '/' && peek(1) == '/')
             while (!over() && peek() != '\n')
                 ++at_;
         else if (peek() == '/' && peek(1) == '*')
@@ -143,7 +153,8 @@ Token Tokenizer::next()
     if (over())
         return make(Kind::end, "", line_);
     const char c = peek();
-    switch (c) {
+    switch (c)
+    {
     case '(':
     case ')':
     case '[':
@@ -187,7 +198,8 @@ Token Tokenizer::quoted()
 {
     const int begin = line_;
     std::string out;
-    for (++at_; peek() != '"' || over(); ++at_) {
+    for (++at_; peek() != '"' || over(); ++at_)
+    {
         if (over() || peek() == '\n')
             fail(begin, "found a text without its closing '\"' on the same line");
         if (isControl(peek()))
@@ -206,11 +218,13 @@ std::string Tokenizer::takeWord()
 {
     const std::size_t begin = at_;
     std::string open;
-    for (; !over() && !endsWord(peek()); ++at_) {
+    for (; !over() && !endsWord(peek()); ++at_)
+    {
         const char c = peek();
         if (c == '(' || c == '[')
             open += c == '(' ? ')' : ']';
-        else if (c == ')' || c == ']') {
+        else if (c == ')' || c == ']')
+        {
             if (open.empty())
                 break;
             if (open.back() != c)
@@ -236,9 +250,13 @@ Token Tokenizer::numberOrSign()
         ++at_;
     std::string word = text_.substr(begin, at_ - begin);
     if (!hasNumberShape(word))
-        fail(line_, fmt::format("found {}, allowed a number like -1.5e3 (a text that begins with a digit, a sign or a "
-                                "point stands in quotes)",
-                                shownText(word)));
+    {
+        const char* hint =
+            word.find(',') != std::string::npos
+                ? "numbers have a decimal point and are separated by blanks"
+                : "SI units, none written; a text that begins with a digit, sign or point stands in quotes";
+        fail(line_, fmt::format("found {}, allowed a number like -1.5e3 ({})", shownText(word), hint));
+    }
     return make(Kind::number, std::move(word), line_);
 }
 
@@ -248,7 +266,8 @@ Token Tokenizer::variable()
     const auto slash = [this] { return peek() == '/' && peek(1) != '/' && peek(1) != '*'; };
     ++at_;
     std::string name;
-    if (peek() == '{') {
+    if (peek() == '{')
+    {
         const std::size_t close = text_.find_first_of("}\n;", at_);
         if (close == std::string::npos || text_[close] != '}')
             fail(line, "found '${' without its '}'");
@@ -256,7 +275,9 @@ Token Tokenizer::variable()
         at_ = close + 1;
         if (name.find(":-") != std::string::npos || name.find_first_of("{$ \t\"") != std::string::npos)
             fail(line, fmt::format("found {}, allowed a plain name: ${{word}}", shownText("${" + name + "}")));
-    } else {
+    }
+    else
+    {
         if (slash())
             fail(line, "found '$/'; the top of the file is written $:word, the dictionary around $..word");
         while (!over() && !endsWord(peek()) && std::string("()[]$,").find(peek()) == std::string::npos)

@@ -14,7 +14,8 @@ using namespace mpm;
 using namespace mpm::cases;
 namespace fs = std::filesystem;
 
-namespace {
+namespace
+{
 /// A folder of our own with a case inside, removed afterwards.
 struct Folder
 {
@@ -182,7 +183,8 @@ TEST_CASE("what is wrong on the command line is named, and nothing runs")
         {{"-case", folder.path / "empty"},
          "-case: found '" + (folder.path / "empty").string() + "', which holds no folder 'system', " + caseAllowed},
     };
-    for (const Row& row : rows) {
+    for (const Row& row : rows)
+    {
         const auto outcome = run(folder, row.words, unreachable);
         CHECK(outcome.error == "--> mpmSolve: error: " + row.message + "\n");
         CHECK(outcome.out.empty());

@@ -5,7 +5,8 @@
 using namespace mpm;
 using namespace mpm::dictionary;
 
-namespace {
+namespace
+{
 const char* const soilText = R"(FoamFile
 {
     version     2.0;
@@ -34,7 +35,7 @@ soil
     {
         type        K0;
         K0          $..nu;
-        again       $:soil.E;
+        again       $..E;
     }
 }
 clay

@@ -9,7 +9,8 @@
 
 using namespace mpm;
 
-namespace {
+namespace
+{
 /// Progress on a stream and a clock of our own.
 struct Scene
 {
@@ -25,12 +26,14 @@ struct Scene
         std::string line;
         std::size_t at = 0;
         const std::string all = out.str();
-        for (const char c : all) {
+        for (const char c : all)
+        {
             if (c == '\n')
                 line.clear(), at = 0;
             else if (c == '\r')
                 at = 0;
-            else {
+            else
+            {
                 line.resize(std::max(line.size(), at + 1), ' ');
                 line[at++] = c;
             }
@@ -98,7 +101,8 @@ TEST_CASE("a terminal line is redrawn at most ten times a second and never wraps
 {
     Scene scene;
     Progress progress("run", 0, 1, scene.surroundings(true, 40));
-    for (int step = 0; step < 1000; ++step) {
+    for (int step = 0; step < 1000; ++step)
+    {
         scene.seconds += 0.001;
         progress.update(step / 1000.0, std::string(100, 'd'));
         REQUIRE(scene.screen().size() < 40);
@@ -112,7 +116,8 @@ TEST_CASE("a file gets a plain line every tenth of the way, or every 30 s")
     Scene scene;
     {
         Progress progress("run", 0, 100, scene.surroundings(false));
-        for (int step = 1; step <= 100; ++step) {
+        for (int step = 1; step <= 100; ++step)
+        {
             scene.seconds += 0.01;
             progress.update(step, "");
         }
@@ -124,7 +129,8 @@ TEST_CASE("a file gets a plain line every tenth of the way, or every 30 s")
 
     Scene slow;
     Progress progress("run", 0, 100, slow.surroundings(false));
-    for (int step = 1; step <= 90; ++step) {
+    for (int step = 1; step <= 90; ++step)
+    {
         slow.seconds += 1;
         progress.update(step * 0.1, "");
     }

@@ -1,0 +1,126 @@
+#pragma once
+/// Internal to dictionary/: taking values from the front of an entry's tokens, and what each type is called in
+/// messages.
+#include "dictionary/body.hpp"
+
+#include <fmt/format.h>
+
+namespace mpm::dictionary
+{
+/// What is left of an entry's tokens while a value is taken from their front.
+struct Rest
+{
+    const Token* at;
+    const Token* end;
+
+    bool empty() const { return at == end; }
+    bool is(char c) const { return !empty() && at->is(c); }
+};
+
+/// The tokens as they would stand in a file, in quotes, for a message.
+std::string shownValue(Rest rest);
+/// What is wrong with the token a take() stopped at, where that is not plain: " (beyond double precision)", or nothing.
+std::string shownReason(Rest all, Rest stopped);
+
+// take() reads one value and moves `rest` behind it, or stops at the token that does not fit and returns false.
+bool take(Rest& rest, double& value);      ///< finite; nothing but a number
+bool take(Rest& rest, Index& value);       ///< digits only
+bool take(Rest& rest, bool& value);        ///< on off yes no true false
+bool take(Rest& rest, std::string& value); ///< a word or a quoted text
+bool take(Rest& rest, Vector3& value);     ///< (x y z)
+bool take(Rest& rest, Dimensions& value);  ///< [5 or 7 exponents]
+
+/// `( a b c )`, or with the count that OpenFOAM writes before it: `3 ( a b c )`.
+template <class T>
+bool take(Rest& rest, std::vector<T>& values)
+{
+    Index count = -1;
+    if (!rest.empty() && rest.at->kind == Kind::number && (!take(rest, count) || count < 0))
+        return false;
+    if (!rest.is('('))
+        return false;
+    const Token* const begin = rest.at;
+    for (++rest.at; !rest.is(')');)
+    {
+        T value{};
+        if (!take(rest, value))
+            return false;
+        values.push_back(std::move(value));
+    }
+    ++rest.at;
+    if (count < 0 || count == Index(values.size()))
+        return true;
+    rest.at = begin - 1; // the count is what does not fit
+    return false;
+}
+
+std::string shownDefault(double value);
+std::string shownDefault(Index value);
+std::string shownDefault(bool value);
+std::string shownDefault(const std::string& value);
+std::string shownDefault(const Dimensions& value);
+std::string shownDefault(const Vector3& value);
+template <class T>
+std::string shownDefault(const std::vector<T>& values)
+{
+    std::string out = "(";
+    for (const T& value : values)
+        out.append(out.size() > 1 ? " " : "").append(shownDefault(value));
+    return out + ")";
+}
+
+/// The first number outside the bound, if any.
+template <class T>
+std::optional<double> outside(const Bound& bound, const T& value)
+{
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Index>)
+        return bound.contains(double(value)) ? std::nullopt : std::optional<double>(double(value));
+    else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, Vector3> ||
+                       std::is_same_v<T, std::vector<Vector3>>)
+    {
+        for (const auto& component : value)
+            if (const auto bad = outside(bound, component))
+                return bad;
+    }
+    return std::nullopt;
+}
+
+template <class T>
+struct Type;
+template <>
+struct Type<double>
+{
+    static constexpr const char *name = "number", *allowed = "a number", *plural = "numbers";
+};
+template <>
+struct Type<Index>
+{
+    static constexpr const char *name = "integer", *allowed = "an integer", *plural = "integers";
+};
+template <>
+struct Type<bool>
+{
+    static constexpr const char *name = "switch", *allowed = "on, off, yes, no, true or false", *plural = "switches";
+};
+template <>
+struct Type<std::string>
+{
+    static constexpr const char *name = "word", *allowed = "a word or a text in double quotes", *plural = "words";
+};
+template <>
+struct Type<Vector3>
+{
+    static constexpr const char *name = "vector", *allowed = "three numbers (x y z)", *plural = "vectors (x y z)";
+};
+template <>
+struct Type<Dimensions>
+{
+    static constexpr const char *name = "dimensions", *allowed = "5 or 7 exponents [kg m s K mol A cd]", *plural = "";
+};
+template <class T>
+struct Type<std::vector<T>>
+{
+    static inline const std::string name = fmt::format("list of {}", Type<T>::plural);
+    static inline const std::string allowed = fmt::format("a list ( ... ) of {}", Type<T>::plural);
+};
+} // namespace mpm::dictionary
