@@ -11,9 +11,23 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace mpm::constitutive
 {
+/// What the return map did to a lane. Edges by sorted principal stresses s1 >= s2 >= s3.
+enum class Region : Index
+{
+    elastic, ///< inside the surface: the trial stress, bitwise
+    face,    ///< one plane
+    edge1,   ///< s1 = s2 (l1, triaxial compression)
+    edge2,   ///< s2 = s3 (l2, triaxial extension)
+    apex
+};
+
+/// "elastic", "face", "edge s1=s2 (l1)", "edge s2=s3 (l2)", "apex".
+const char* regionName(Region region);
+
 /// One chunk of particles. All 64 lanes hold finite numbers; lanes from `count` on are copies that nobody reads back.
 template <int dim>
 struct Chunk
@@ -25,10 +39,13 @@ struct Chunk
     /// out: plastic work (sigma_start + sigma_end)/2 : dEps_p per current volume [J/m^3], so that elastic + plastic
     /// adds up to the work of the mid-step stress
     alignas(64) double plasticWork[lanes];
-    /// out: volumetric plastic strain the return to the apex drops beyond what the flow rule allows [-]; 0 elsewhere
+    /// out: volumetric plastic strain the return to the apex drops beyond what the flow rule allows [-]; 0 elsewhere.
+    /// At psi = 0 that is all of it; for psi > 0 every apex return has multipliers >= 0, so nothing is dropped.
     alignas(64) double apexStrain[lanes];
     /// out: f/max(|sigma|, strength scale) after the update [-]; <= 0 inside, round-off on the surface
     alignas(64) double yield[lanes];
+    alignas(64) Region region[lanes]; ///< out: where each lane ended
+    int apexReturns = 0;              ///< out: lanes below `count` that ended at the apex
 };
 
 class Law

@@ -1,0 +1,50 @@
+#pragma once
+/// Elastic, perfectly plastic Mohr-Coulomb, s1 >= s2 >= s3, tension positive:
+///
+///     yield      f = k s1 - s3 - sc <= 0,   k = (1 + sin phi)/(1 - sin phi),  sc = 2 c sqrt(k)
+///     potential  g = m s1 - s3,             m = (1 + sin psi)/(1 - sin psi),  psi <= phi
+///
+/// Exact return in principal space to the face, to both edges and to the apex after Clausen, Damkilde & Andersen,
+/// "Efficient return algorithms for associated plasticity with multiple yield planes", Int. J. Numer. Meth. Engng 66
+/// (2006) 1036-1059; mohrCoulombReturn.hpp has the formulas. phi = 0 is Tresca's law; it has no apex. c = 0 is allowed.
+/// The surface turns with the trial stress: axes are those of the trial stress, the answer of a backward Euler step.
+///
+/// At psi = 0 the flow rule keeps plastic volume, so beyond p = c cot phi it has no solution. The apex is then the limit
+/// psi -> 0+, a convention; the plastic volume it drops, (p_trial - c cot phi)/K, goes to Chunk::apexStrain. For psi > 0
+/// the six planes meeting at the apex span every plastic strain the return needs: apexStrain is 0 there.
+/// Chunk::apexReturns counts apex returns for every psi.
+///
+///     law            mohrCoulomb;
+///     E              20e6;   // [Pa] > 0
+///     nu             0.42;   // in (-1, 0.5)
+///     cohesion       1e3;    // [Pa] >= 0
+///     frictionAngle  42;     // [deg] in [0, 90)
+///     dilationAngle  0;      // [deg] in [0, frictionAngle]; default 0
+///
+/// Tests: tests/unit/mohrCoulomb.cpp, tests/verification/rateEquations.cpp. Errors: InputError for values out of bounds.
+#include "constitutive/elasticTrial.hpp"
+#include "constitutive/mohrCoulombReturn.hpp"
+
+namespace mpm::constitutive
+{
+class MohrCoulomb : public Law
+{
+  public:
+    explicit MohrCoulomb(const MohrCoulombParameters& parameters);
+    static MohrCoulomb read(const dictionary::Dictionary& material);
+
+    std::string name() const override { return "mohrCoulomb"; }
+    std::string describe() const override;
+    void update(Chunk<2>& chunk) const override;
+    void update(Chunk<3>& chunk) const override;
+    double bulkModulus() const override { return parameters_.moduli.bulk(); }
+    double shearModulus() const override { return parameters_.moduli.shear(); }
+    bool plastic() const override { return true; }
+
+    const MohrCoulombParameters& parameters() const { return parameters_; }
+
+  private:
+    MohrCoulombParameters parameters_;
+    MohrCoulombSurface surface_;
+};
+} // namespace mpm::constitutive

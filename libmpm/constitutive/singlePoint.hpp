@@ -1,0 +1,24 @@
+#pragma once
+/// One material point through a law: a chunk of which one lane counts.
+#include "constitutive/law.hpp"
+
+namespace mpm::constitutive
+{
+/// xx, yy, zz, xy, yz, zx; tensor components.
+using SymmetricTensor = std::array<double, 6>;
+
+struct PointStep
+{
+    SymmetricTensor stress; ///< [Pa]
+    Region region;
+    double plasticWork; ///< [J/m^3]
+    double apexStrain;  ///< [-]
+    double yield;       ///< f/max(|sigma|, strength scale)
+};
+
+/// The law's step from `stress` [Pa] over the strain increment `dStrain` [-], in 3D.
+PointStep updatePoint(const Law& law, const SymmetricTensor& stress, const SymmetricTensor& dStrain);
+
+/// The return of one trial stress [Pa].
+PointStep returnMap(const Law& law, const SymmetricTensor& trial);
+} // namespace mpm::constitutive
