@@ -1,0 +1,51 @@
+#pragma once
+/// Geometry files through gmsh's C++ API, as plain numbers. The only place where gmsh is used.
+///
+///     .geo           gmsh's own language, both of its kernels; only curves (2D) or surfaces (3D) are meshed
+///     .step, .stp    CAD; a labelled solid or face is a region or boundary of its label, else all are one region
+///     .stl           a triangle surface; all facets are one region named after the file
+///     .msh           gmsh's mesh format 2.2 and 4.1, elements of first order
+///
+/// Physical groups of the asked dimension are regions, those of one dimension less are boundaries. A file without groups
+/// of the asked dimension is one region named after the file. Straight curves come out as one segment between their end
+/// points as written in the file, curved ones as chords: `Mesh.MeshSize...` of the file rules them, and at least 180 (2D)
+/// or 90 (3D) chords make a full turn unless the .geo file sets Mesh.MeshSizeFromCurvature itself.
+///
+/// Lengths are metres. Coordinates of a STEP file are taken as written, whatever its unit; `scale` multiplies all.
+/// Errors (InputError, with the file's name): unreadable file or what gmsh says of it, no entity of the asked dimension, a
+/// plane geometry that is not in a plane z = constant, elements of higher order.
+///
+/// gmsh is started and stopped inside the call and writes nothing; standard output and error are closed meanwhile, so do
+/// not call it while other threads print.
+#include "geometry/simplex.hpp"
+
+#include <filesystem>
+
+namespace mpm::geometry
+{
+/// A region before it is checked: the closed surfaces of its parts, elements facing either way.
+struct RawRegion
+{
+    std::string name;
+    std::vector<std::vector<Simplex>> parts; ///< one a surface (2D) or volume (3D) of the file
+    bool connected = false; ///< each part is one CAD surface, which may have holes but no islands
+};
+
+struct RawBoundary
+{
+    std::string name;
+    std::vector<Simplex> elements;
+};
+
+struct GmshMesh
+{
+    int dim = 2;
+    std::filesystem::path file;
+    std::vector<Vector3> points;         ///< [m]; z = 0 in 2D
+    std::vector<RawRegion> regions;      ///< in the file's order of groups
+    std::vector<RawBoundary> boundaries; ///< likewise
+    std::vector<std::string> notes;      ///< what a user should know: choices made, gmsh's warnings
+};
+
+GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale = 1);
+} // namespace mpm::geometry
