@@ -4,23 +4,26 @@
 ///
 /// Layout of a node record in d dimensions: lane 0 mass, lanes 1..d momentum (later velocity), lanes d+1..2d force
 /// (later acceleration, or the velocity strains are taken from).
+///
+/// For kernels only: how such a value is passed between functions depends on the instruction set, so it stays out of the
+/// headers utilities include.
 namespace mpm
 {
 typedef double Record __attribute__((vector_size(64)));
 typedef double AliasingRecord __attribute__((vector_size(64), may_alias));
 
 /// Eight doubles of a column that starts on a 64-byte boundary.
-inline Record load(const double* p)
+__attribute__((always_inline)) inline Record load(const double* p)
 {
     return *reinterpret_cast<const AliasingRecord*>(p);
 }
-inline void store(double* p, const Record& r)
+__attribute__((always_inline)) inline void store(double* p, const Record& r)
 {
     *reinterpret_cast<AliasingRecord*>(p) = r;
 }
 
 /// Transposes an 8 x 8 block in place: eight records of eight lanes become eight columns and back.
-inline void transpose(Record (&r)[8])
+__attribute__((always_inline)) inline void transpose(Record (&r)[8])
 {
     Record t[8];
     for (int i = 0; i < 8; i += 2)

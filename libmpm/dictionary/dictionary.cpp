@@ -218,6 +218,13 @@ void Dictionary::rejectUnread() const
     }
 }
 
+void Dictionary::passOver(const std::string& word, const std::string& help) const
+{
+    body_->remember({word, "", help, "", "", ""});
+    if (NodeEntry* entry = body_->node->find(word))
+        entry->read = true;
+}
+
 std::string dictionaryText(const Node& node, int indent)
 {
     const std::string blanks(std::size_t(indent), ' ');

@@ -141,6 +141,9 @@ class Dictionary
     /// a nested dictionary nobody opened is itself unread. FoamFile headers are exempt.
     void rejectUnread() const;
 
+    /// Leaves an entry or a nested dictionary, if it is there, to another utility that reads and checks it.
+    void passOver(const std::string& word, const std::string& help) const;
+
     /// Throws InputError at an entry: "file:line: word: found ..., allowed ...".
     [[noreturn]] void fail(const std::string& word, const std::string& found, const std::string& allowed) const;
 

@@ -9,20 +9,13 @@
 /// Where a hat reaches a node without mass (linear shape near a surface), the element's weights are renormalised over the
 /// nodes that carry mass, so no load is lost; an element with no such node is a StepError.
 /// Verified in tests/unit/traction.cpp.
+#include "nodal/boundaries.hpp"
 #include "state/gridBox.hpp"
 #include "state/nodeGrid.hpp"
 #include "state/state.hpp"
 
 namespace mpm::nodal
 {
-struct Load
-{
-    std::string patch;
-    bool pressure = false;
-    Vector3 traction{};   ///< [Pa], if not a pressure
-    double magnitude = 0; ///< [Pa], if a pressure
-};
-
 template <int dim>
 class Traction
 {

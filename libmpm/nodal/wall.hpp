@@ -17,30 +17,11 @@
 ///
 /// The wall must lie on a plane of nodes (an error names the nearest two). Books impulse and work, split into friction
 /// and the rest. Verified in tests/unit/walls.cpp.
+#include "nodal/boundaries.hpp"
 #include "nodal/nodeRow.hpp"
-
-#include <string>
 
 namespace mpm::nodal
 {
-enum class WallType
-{
-    fixed,
-    roller,
-    friction
-};
-
-struct Wall
-{
-    std::string name;
-    WallType type = WallType::roller;
-    int axis = 1;            ///< 0, 1, 2: the axis it is normal to
-    int side = -1;           ///< -1: outward normal along -axis (a floor), +1: along +axis
-    Index plane = 0;         ///< lattice index of the wall's plane of nodes
-    double mu = 0;
-    bool separation = false;
-};
-
 template <int dim>
 class WallEffect : public NodeEffect<dim>
 {

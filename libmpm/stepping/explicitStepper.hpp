@@ -2,6 +2,7 @@
 /// The step for one dimension and one shape. See stepper.hpp for the method; the functions below are its passes, in the
 /// order they run.
 #include "nodal/gravity.hpp"
+#include "nodal/traction.hpp"
 #include "nodal/wall.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
@@ -19,6 +20,7 @@ class ExplicitStepper : public Stepper
     const StepReport& report() const override { return report_; }
     const PassTimes& times() const override { return times_; }
     double smallestNodalMassFraction() override;
+    double largestSpeed() const override;
 
   private:
     using Weights = transfer::ChunkWeights<dim, Shape>;
@@ -28,7 +30,7 @@ class ExplicitStepper : public Stepper
     {
         double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
         double strainWork = 0; ///< sum V sigma : D dt with stress and volume before the update
-        double smallestJacobian = 1, largestSpeedSquare = 0, maxYield = 0;
+        double smallestJacobian = 1, maxYield = 0;
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
     };

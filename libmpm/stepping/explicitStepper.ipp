@@ -60,13 +60,6 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
             }
     sortByStoredKeys(state);
     cutSlabs();
-    const auto& p = state.particles;
-    double kinetic = 0;
-    for (Index i = 0; i < p.size(); ++i)
-        for (int a = 0; a < dim; ++a)
-            kinetic += 0.5 * p.mass[std::size_t(i)] * p.v[a][std::size_t(i)] * p.v[a][std::size_t(i)];
-    if (state.step == 0)
-        state.ledger.kineticEnergy = kinetic;
 }
 
 // One step ------------------------------------------------------------------------------------------------------------
@@ -416,15 +409,13 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Index first, int count, double
         for (int l = 0; l < lanes; ++l)
             vv[l] += v[l] * v[l];
     }
-    double kinetic = 0, fastest = 0;
+    double kinetic = 0;
     const double* m = p.mass.data() + first;
     for (int l = 0; l < count; ++l)
     {
         kinetic += m[l] * vv[l];
-        fastest = vv[l] > fastest ? vv[l] : fastest;
     }
     sums.kinetic += 0.5 * kinetic;
-    sums.largestSpeedSquare = std::max(sums.largestSpeedSquare, fastest);
     if (scene_.bodyForce)
     {
         alignas(64) double b[3][lanes];
@@ -499,7 +490,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Index first, int count, double dt
     {
         plastic += volume[l] * chunk.plasticWork[l];
         apex += volume[l] * chunk.apexStrain[l];
-        returns += chunk.apexStrain[l] != 0;
+        returns += chunk.region[l] == constitutive::Region::apex;
         yield = chunk.yield[l] > yield ? chunk.yield[l] : yield;
     }
     sums.plasticWork += plastic;
@@ -544,6 +535,7 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, constitutive::Chunk<dim>
                 chunk.plasticWork[l] = own.plasticWork[l];
                 chunk.apexStrain[l] = own.apexStrain[l];
                 chunk.yield[l] = own.yield[l];
+                chunk.region[l] = own.region[l];
             }
     }
 }
@@ -604,7 +596,6 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         total.apexReturns += s.apexReturns;
         total.cappedDomains += s.cappedDomains;
         total.smallestJacobian = std::min(total.smallestJacobian, s.smallestJacobian);
-        total.largestSpeedSquare = std::max(total.largestSpeedSquare, s.largestSpeedSquare);
         total.maxYield = std::max(total.maxYield, s.maxYield);
     }
     auto& ledger = state_.ledger;
@@ -614,7 +605,6 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         ledger.kineticEnergy = total.kinetic;
         ledger.bodyForceWork += total.bodyForceWork;
         ledger.pendingForceWork -= total.bodyForceEnd;
-        report_.largestSpeed = std::sqrt(total.largestSpeedSquare);
     }
     if (half.strain)
     {
@@ -654,6 +644,20 @@ double ExplicitStepper<dim, Shape>::smallestNodalMassFraction()
                     fraction = std::min(fraction, node[i][0] / full);
         }
     return fraction;
+}
+
+template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::largestSpeed() const
+{
+    double fastest = 0;
+    for (Index i = 0; i < state_.particles.size(); ++i)
+    {
+        double vv = 0;
+        for (int a = 0; a < dim; ++a)
+            vv += state_.particles.v[a][std::size_t(i)] * state_.particles.v[a][std::size_t(i)];
+        fastest = std::max(fastest, vv);
+    }
+    return std::sqrt(fastest);
 }
 
 template <int dim, class Shape>

@@ -12,8 +12,7 @@
 ///     MUSL  last, from the second projection of the updated particle velocities (default)
 /// The paper's Eq. 8 (old velocity and old stress) is forward Euler and unstable at every dt; it is not offered.
 #include "constitutive/material.hpp"
-#include "nodal/traction.hpp"
-#include "nodal/wall.hpp"
+#include "nodal/boundaries.hpp"
 #include "splitting/splitParticles.hpp"
 #include "state/state.hpp"
 
@@ -58,7 +57,6 @@ struct Scene
 struct StepReport
 {
     double smallestJacobian = 1;  ///< min det F
-    double largestSpeed = 0;      ///< max |v_p| [m/s]
     double maxYieldViolation = 0; ///< max f/max(|sigma|, strength) over particles, 0 if none yields
     Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
 };
@@ -80,6 +78,8 @@ class Stepper
     virtual const PassTimes& times() const = 0;
     /// Smallest mass of a node that carries mass over rho h^d of a full cell, for the stability limit.
     virtual double smallestNodalMassFraction() = 0;
+    /// max |v_p| of the particles as they are [m/s].
+    virtual double largestSpeed() const = 0;
 };
 
 /// The instantiated pairs; case/makeStepper.cpp chooses among them by name.

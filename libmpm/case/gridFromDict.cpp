@@ -1,0 +1,51 @@
+#include "case/gridFromDict.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace mpm::cases {
+namespace {
+using dictionary::Bound;
+namespace unit = dictionary::unit;
+
+constexpr double wholeCells = 1e-6; ///< [cells]
+constexpr double mostCells = 1e7;   ///< an axis; beyond it is a slip of the pen
+
+std::string text(const Vector3& v)
+{
+    return fmt::format("({:.10g} {:.10g} {:.10g})", v[0], v[1], v[2]);
+}
+} // namespace
+
+state::GridBox gridFromDict(const dictionary::Dictionary& dict)
+{
+    state::GridBox grid;
+    const Index dim = dict.get<Index>({"dimension", "2: plane strain, 3", unit::none, Bound::between(2, 3)});
+    const auto low = dict.get<Vector3>({"min", "lower corner of the grid", unit::length});
+    const auto high = dict.get<Vector3>({"max", "upper corner of the grid", unit::length});
+    const double h = dict.get<double>({"cellSize", "side of a cell", unit::length, Bound::positive()});
+    grid.dim = int(dim);
+    grid.origin = low;
+    grid.cells = {1, 1, 1};
+    if (dim == 2 && (low[2] != 0 || high[2] != 0))
+        dict.fail(low[2] != 0 ? "min" : "max", text(low[2] != 0 ? low : high), "z = 0 in 2D");
+
+    Vector3 fitting = high;
+    bool fits = true;
+    for (std::size_t k = 0; k < std::size_t(dim); ++k)
+    {
+        const double cells = (high[k] - low[k]) / h;
+        if (!(cells > 0) || !(cells < mostCells))
+            dict.fail("max", text(high), fmt::format("{} > {:.10g} of min, fewer than {:g} cells of {:.10g} away", axisNames[k], low[k],
+                                                     mostCells, h));
+        grid.cells[k] = std::max<Index>(1, std::llround(cells));
+        fits = fits && std::abs(cells - double(grid.cells[k])) <= wholeCells;
+        fitting[k] = low[k] + double(grid.cells[k]) * h;
+    }
+    if (!fits)
+        dict.fail("max", text(high), fmt::format("a whole number of cells of cellSize {:.10g} from min {}; the nearest is {}", h, text(low),
+                                                 text(fitting)));
+    grid.h = (high[0] - low[0]) / double(grid.cells[0]);
+    return grid;
+}
+} // namespace mpm::cases

@@ -1,0 +1,39 @@
+#include "case/makeStepper.hpp"
+
+#include "base/error.hpp"
+#include "shape/cpGIMP.hpp"
+#include "shape/linear.hpp"
+#include "shape/uGIMP.hpp"
+
+namespace mpm::cases
+{
+const std::vector<dictionary::Choice>& shapeCatalogue()
+{
+    static const std::vector<dictionary::Choice> catalogue = {
+        {"uGIMP", "particle domains that keep their size"},
+        {"cpGIMP", "particle domains that follow the stretch"},
+        {"linear", "points and hat functions, the original method"}};
+    return catalogue;
+}
+
+bool shapeHasDomain(const std::string& shape)
+{
+    return shape != "linear";
+}
+
+std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
+                                               const stepping::Scene& scene)
+{
+    const bool flat = state.particles.dim == 2;
+    if (shape == "linear")
+        return flat ? stepping::makeExplicitStepper<2, shape::Linear>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::Linear>(state, scene);
+    if (shape == "uGIMP")
+        return flat ? stepping::makeExplicitStepper<2, shape::UGIMP>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::UGIMP>(state, scene);
+    if (shape == "cpGIMP")
+        return flat ? stepping::makeExplicitStepper<2, shape::CpGIMP>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::CpGIMP>(state, scene);
+    throw InputError("there is no shape '" + shape + "'");
+}
+} // namespace mpm::cases

@@ -1,0 +1,13 @@
+#pragma once
+/// The one place where words become types: the stepper for a shape's name and a state's dimension.
+#include "stepping/stepper.hpp"
+
+namespace mpm::cases
+{
+/// Names and help of the shapes, the default first.
+const std::vector<dictionary::Choice>& shapeCatalogue();
+bool shapeHasDomain(const std::string& shape);
+/// Throws InputError for a name that is not in the catalogue.
+std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
+                                               const stepping::Scene& scene);
+} // namespace mpm::cases

@@ -1,0 +1,313 @@
+#include "case/readScene.hpp"
+
+#include "case/gridFromDict.hpp"
+#include "case/makeStepper.hpp"
+#include "constitutive/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace mpm::cases
+{
+using dictionary::Bound;
+using dictionary::Dictionary;
+namespace unit = dictionary::unit;
+
+std::vector<constitutive::Material> readMaterials(const Dictionary& d)
+{
+    std::vector<constitutive::Material> materials;
+    for (const auto& name : d.dictNames())
+    {
+        const Dictionary& m = d.subDict(name, "a material");
+        constitutive::Material material;
+        material.name = name;
+        material.density = m.get<double>({"density", "initial density", unit::density, Bound::positive()});
+        material.law = constitutive::makeLaw(m);
+        m.passOver("initialStress", "stress at the start, applied by seedParticles");
+        m.passOver("initialVelocity", "velocity at the start, applied by seedParticles");
+        materials.push_back(std::move(material));
+    }
+    if (materials.empty())
+        throw InputError(d.where(), "no material: one dictionary a material is needed, soil { law mohrCoulomb; ... }");
+    return materials;
+}
+
+std::optional<Vector3> readGravity(const Dictionary& d, int dim)
+{
+    if (d.found("dimensions"))
+    {
+        const auto given = d.get<dictionary::Dimensions>({"dimensions", "[0 1 -2 0 0 0 0]"});
+        if (given != unit::acceleration)
+            d.fail("dimensions", "other dimensions than those of an acceleration", "[0 1 -2 0 0 0 0]");
+    }
+    const Vector3 g = d.get<Vector3>({"value", "acceleration of gravity", unit::acceleration});
+    if (dim == 2 && g[2] != 0)
+        d.fail("value", fmt::format("a z component of {:g}", g[2]), "0, as dimension is 2");
+    if (g == Vector3{})
+        return std::nullopt;
+    return g;
+}
+
+namespace
+{
+/// A plane normal to an axis.
+struct Plane
+{
+    int axis = 0, side = -1;
+    double position = 0;
+};
+
+Plane readPlane(const Dictionary& plane, int dim)
+{
+    const Vector3 n = plane.get<Vector3>({"normal", "outward normal, along an axis"});
+    Plane out;
+    int nonzero = 0;
+    for (int a = 0; a < 3; ++a)
+        if (n[a] != 0)
+        {
+            ++nonzero;
+            out.axis = a;
+            out.side = n[a] < 0 ? -1 : 1;
+        }
+    if (nonzero != 1 || out.axis >= dim)
+        plane.fail("normal", fmt::format("({:g} {:g} {:g})", n[0], n[1], n[2]),
+                   dim == 2 ? "(-1 0 0), (1 0 0), (0 -1 0) or (0 1 0)" : "a vector along one axis");
+    out.position = plane.get<double>({"position", "coordinate of the plane along its normal's axis", unit::length});
+    return out;
+}
+
+const state::SurfacePatch* findPatch(const state::State& state, const std::string& name)
+{
+    for (const auto& patch : state.patches)
+        if (patch.name == name)
+            return &patch;
+    return nullptr;
+}
+
+std::vector<std::string> patchNames(const state::State& state)
+{
+    std::vector<std::string> names;
+    for (const auto& patch : state.patches)
+        names.push_back(patch.name);
+    return names;
+}
+
+[[noreturn]] void failUnknownPatch(const Dictionary& all, const std::string& name, const state::State& state)
+{
+    const auto names = patchNames(state);
+    const auto near = nearestWord(name, names);
+    throw InputError(all.where(name),
+                     fmt::format("{}: found no boundary of that name in the geometry{}; allowed: {}{}", name,
+                                 near.empty() ? "" : " (did you mean '" + near + "'?)",
+                                 names.empty() ? std::string("(the geometry names none)") : joinWords(names),
+                                 ", or for a wall any name with plane { normal (0 -1 0); position 0; }"));
+}
+
+/// The plane all of a patch lies in.
+Plane planeOfPatch(const Dictionary& all, const state::SurfacePatch& patch, int dim, double h)
+{
+    for (int a = 0; a < dim; ++a)
+    {
+        const auto [low, high] = std::minmax_element(patch.centre[a].begin(), patch.centre[a].end());
+        bool flat = patch.size() > 0 && *high - *low <= 1e-9 * h;
+        double outward = 0;
+        for (Index e = 0; e < patch.size() && flat; ++e)
+        {
+            const auto edge = [&](int k) { return patch.edges[k][std::size_t(e)]; };
+            for (int k = 0; k < dim - 1; ++k)
+                flat = flat && std::abs(edge(k * dim + a)) <= 1e-9 * h;
+            outward += dim == 2 ? (a == 0 ? edge(1) : -edge(0))
+                                : edge((a + 1) % 3) * edge(3 + (a + 2) % 3) - edge((a + 2) % 3) * edge(3 + (a + 1) % 3);
+        }
+        if (flat && outward != 0)
+            return {a, outward < 0 ? -1 : 1, 0.5 * (*low + *high)};
+    }
+    throw InputError(all.where(patch.name),
+                     fmt::format("{}: found a boundary that is not flat and normal to an axis; a wall must be: give it as "
+                                 "plane {{ normal (0 -1 0); position 0; }}",
+                                 patch.name));
+}
+
+nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::string& name, const std::string& type,
+                     const state::State& state)
+{
+    nodal::Wall wall;
+    wall.name = name;
+    wall.type = type == "fixed" ? nodal::WallType::fixed : type == "roller" ? nodal::WallType::roller
+                                                                           : nodal::WallType::friction;
+    if (wall.type == nodal::WallType::friction)
+        wall.mu = d.get<double>({"mu", "Coulomb friction coefficient", {}, Bound::nonNegative()});
+    wall.separation = d.get<bool>({"separation",
+                                   "on: the wall only pushes; off: it also holds",
+                                   {},
+                                   {},
+                                   wall.type == nodal::WallType::friction});
+    const int dim = state.particles.dim;
+    Plane plane;
+    if (const Dictionary* own = d.findDict("plane", "the wall's plane; default: that of the boundary of this name"))
+        plane = readPlane(*own, dim);
+    else if (const auto* patch = findPatch(state, name))
+        plane = planeOfPatch(all, *patch, dim, state.grid.h);
+    else
+        failUnknownPatch(all, name, state);
+    wall.axis = plane.axis;
+    wall.side = plane.side;
+    const double index = (plane.position - state.grid.origin[plane.axis]) / state.grid.h;
+    wall.plane = Index(std::lround(index));
+    if (std::abs(index - double(wall.plane)) > 1e-6)
+    {
+        const auto at = [&](double i) { return state.grid.origin[plane.axis] + state.grid.h * i; };
+        throw InputError(all.where(name),
+                         fmt::format("{}: found a wall at {} = {:g}, between planes of nodes; allowed: the nearest are "
+                                     "{:.10g} and {:.10g} (or move min of system/gridDict)",
+                                     name, axisNames[plane.axis], plane.position, at(std::floor(index)),
+                                     at(std::floor(index) + 1)));
+    }
+    return wall;
+}
+} // namespace
+
+void readBoundaries(const Dictionary& d, const state::State& state, stepping::Scene& scene)
+{
+    for (const auto& name : d.dictNames())
+    {
+        const Dictionary& b = d.subDict(name, "a boundary");
+        const auto type = b.choose("type", "what the boundary does",
+                                   {{"fixed", "no motion"},
+                                    {"roller", "no motion along the normal"},
+                                    {"friction", "Coulomb friction"},
+                                    {"traction", "given load vector"},
+                                    {"pressure", "given load along the inward normal"}});
+        if (type != "traction" && type != "pressure")
+        {
+            scene.walls.push_back(readWall(d, b, name, type, state));
+            continue;
+        }
+        nodal::Load load;
+        load.patch = name;
+        load.pressure = type == "pressure";
+        if (load.pressure)
+            load.magnitude = b.get<double>({"value", "pressure", unit::pressure});
+        else
+            load.traction = b.get<Vector3>({"value", "load per current area", unit::pressure});
+        if (state.particles.dim == 2 && load.traction[2] != 0)
+            b.fail("value", fmt::format("a z component of {:g}", load.traction[2]), "0, as dimension is 2");
+        if (!findPatch(state, name))
+            failUnknownPatch(d, name, state);
+        scene.loads.push_back(load);
+    }
+}
+
+splitting::Rule readSplitting(const Dictionary& d)
+{
+    splitting::Rule rule;
+    rule.threshold =
+        d.get<double>({"threshold", "longest edge, in seeding spacings", {}, {1, 1e300, true, false}, rule.threshold});
+    rule.mode = d.choose("mode", "which edges are halved",
+                         {{"fourWay", "all edges of a particle"}, {"stretched", "edges over the threshold"}},
+                         "fourWay") == "fourWay"
+                    ? splitting::Mode::fourWay
+                    : splitting::Mode::stretched;
+    rule.interval = d.get<Index>({"interval", "steps between checks", {}, Bound::atLeast(1), rule.interval});
+    rule.maxParticles = d.get<Index>({"maxParticles", "cap on their number", {}, Bound::atLeast(1), rule.maxParticles});
+    rule.maxGeneration = int(
+        d.get<Index>({"maxGeneration", "halvings of one particle", {}, Bound::between(0, 30), rule.maxGeneration}));
+    return rule;
+}
+
+std::string readSchemes(const Dictionary& d, const state::State& state, stepping::Scene& scene)
+{
+    const auto shape = d.choose("shape", "shape functions", shapeCatalogue(), "uGIMP");
+    const auto update = d.choose("stressUpdate", "when stress is updated",
+                                 {{"MUSL", "last, from a second projection"},
+                                  {"USL", "last, from v*"},
+                                  {"USF", "before the forces"}},
+                                 "MUSL");
+    scene.stressUpdate = update == "USF"   ? stepping::StressUpdate::USF
+                         : update == "USL" ? stepping::StressUpdate::USL
+                                           : stepping::StressUpdate::MUSL;
+    d.choose("transfer", "how velocities return to particles", {{"FLIP", "increments, with a rate of PIC"}}, "FLIP");
+    scene.picRate =
+        d.get<double>({"picRate", "share of PIC velocity mixed in per second", unit::rate, Bound::nonNegative(), 0.0});
+    scene.sortInterval =
+        d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
+    scene.defaultSlabs =
+        d.get<Index>({"slabs", "parts particles are cut into for threads", {}, Bound::between(1, 1024), Index(8)});
+    if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
+        scene.splitting = readSplitting(*splitting);
+    if (state.slabs > 0 && state.slabs != scene.defaultSlabs && d.found("slabs"))
+        d.fail("slabs", fmt::format("{}", scene.defaultSlabs),
+               fmt::format("{}, which the stored state was computed with", state.slabs));
+    return shape;
+}
+
+namespace
+{
+/// The state's box may be moved and widened, its lattice may not.
+void takeGrid(const Dictionary& gridDict, state::State& state)
+{
+    const auto grid = gridFromDict(gridDict);
+    auto& own = state.grid;
+    bool same = grid.dim == own.dim && std::abs(grid.h - own.h) <= 1e-12 * own.h;
+    for (int a = 0; a < own.dim && same; ++a)
+    {
+        const double shift = (grid.origin[a] - own.origin[a]) / own.h;
+        same = std::abs(shift - std::round(shift)) <= 1e-6;
+    }
+    if (!same)
+        gridDict.fail("cellSize", fmt::format("dimension {}, cells of {:g} m from ({:g}, {:g}, {:g})", grid.dim, grid.h,
+                                              grid.origin[0], grid.origin[1], grid.origin[2]),
+                      fmt::format("the grid the particles were seeded on, dimension {}, cells of {:g} m from ({:g}, {:g}, "
+                                  "{:g}); to change it run seedParticles -overwrite",
+                                  own.dim, own.h, own.origin[0], own.origin[1], own.origin[2]));
+    own = grid;
+}
+
+/// Materials in the state's order.
+std::vector<constitutive::Material> matchMaterials(const Dictionary& d, const state::State& state)
+{
+    const auto all = readMaterials(d);
+    std::vector<constitutive::Material> out;
+    for (const auto& name : state.materials)
+    {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
+        if (found == all.end())
+        {
+            std::vector<std::string> names;
+            for (const auto& m : all)
+                names.push_back(m.name);
+            throw InputError(d.where(), fmt::format("found no material '{}', which particles of the state are made of; "
+                                                    "there are {}",
+                                                    name, joinWords(names, " and ")));
+        }
+        out.push_back(*found);
+    }
+    return out;
+}
+} // namespace
+
+SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
+{
+    SceneOfCase out;
+    std::vector<std::pair<std::string, Dictionary>> read;
+    const auto open = [&](const std::string& name) -> const Dictionary& {
+        read.emplace_back(name, Dictionary::readFile(folder.dictionaryPath(name)));
+        return read.back().second;
+    };
+    read.reserve(8);
+    takeGrid(open("system/gridDict"), state);
+    out.scene.materials = matchMaterials(open("constant/materialProperties"), state);
+    if (folder.hasFile("constant/g"))
+        out.scene.gravity = readGravity(open("constant/g"), state.particles.dim);
+    if (folder.hasFile("constant/boundaryConditions"))
+        readBoundaries(open("constant/boundaryConditions"), state, out.scene);
+    out.shape = readSchemes(open("system/mpmSchemes"), state, out.scene);
+    for (const auto& [name, dictionary] : read)
+    {
+        dictionary.rejectUnread();
+        out.dictionaries += "// " + name + "\n" + dictionary.text() + "\n";
+    }
+    return out;
+}
+} // namespace mpm::cases

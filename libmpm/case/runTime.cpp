@@ -1,0 +1,73 @@
+#include "case/runTime.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm::cases
+{
+using dictionary::Bound;
+using dictionary::Dictionary;
+namespace unit = dictionary::unit;
+
+RunTime::RunTime(const Dictionary& d)
+{
+    d.choose("application", "the solver", {{"mpmSolve", "explicit material point method"}}, "mpmSolve");
+    const auto from = d.choose("startFrom", "the stored time to go on from",
+                               {{"firstTime", "the first stored time"},
+                                {"startTime", "the stored time nearest to startTime"},
+                                {"latestTime", "the last stored time"}},
+                               "latestTime");
+    start_ = from == "firstTime" ? Start::first : from == "startTime" ? Start::given : Start::latest;
+    startTime_ = d.get<double>({"startTime", "time to start from", unit::time, Bound::any(), 0.0});
+    d.choose("stopAt", "when the run ends", {{"endTime", "at endTime"}}, "endTime");
+    endTime_ = d.get<double>({"endTime", "end of the run", unit::time});
+    deltaT_ = d.get<double>({"deltaT", "time step", unit::time, Bound::positive()});
+    adjust_ = d.get<bool>({"adjustTimeStep", "follow maxCo and the stability limit", {}, {}, false});
+    maxCo_ = d.get<double>({"maxCo", "largest (c_p + |v|) deltaT/h", {}, Bound::positive(), 0.5});
+    maxDeltaT_ = d.get<double>({"maxDeltaT", "largest time step", unit::time, Bound::positive(), 1e30});
+    writeControl_ = d.choose("writeControl", "when states are written",
+                             {{"timeStep", "every writeInterval steps"},
+                              {"runTime", "at the first step past every writeInterval seconds"},
+                              {"adjustableRunTime", "steps are shortened to land on every writeInterval seconds"}},
+                             "runTime");
+    writeInterval_ = writeControl_ == "timeStep"
+                         ? double(d.get<Index>({"writeInterval", "steps between states", {}, Bound::atLeast(1)}))
+                         : d.get<double>({"writeInterval", "time between states", unit::time, Bound::positive()});
+    purge_ = d.get<Index>({"purgeWrite", "keep the last n written times (0: all)", {}, Bound::nonNegative(), 0});
+    precision_ = int(d.get<Index>({"timePrecision", "digits in folder names", {}, Bound::between(1, 17), 6}));
+    history_ = d.get<Index>({"historyInterval", "steps between rows of history.csv", {}, Bound::atLeast(1), 1});
+    if (d.get<bool>({"runTimeModifiable", "read dictionaries again while running", {}, {}, false}))
+        d.fail("runTimeModifiable", "yes", "no: a run reads its dictionaries once, so that it can be repeated");
+}
+
+bool RunTime::done(double time) const
+{
+    return time > endTime_ - 0.5 * (adjust_ ? 1e-9 * deltaT_ : deltaT_);
+}
+
+double RunTime::nextWriteTime(double time) const
+{
+    if (writeControl_ != "adjustableRunTime")
+        return endTime_;
+    return std::min(endTime_, writeInterval_ * (std::floor(time / writeInterval_ + 1e-9) + 1));
+}
+
+double RunTime::nextStep(double time, double limit) const
+{
+    if (!adjust_ && writeControl_ != "adjustableRunTime")
+        return deltaT_;
+    const double wanted = adjust_ ? std::min(limit, maxDeltaT_) : deltaT_;
+    const double remaining = nextWriteTime(time) - time;
+    return remaining / std::max(1.0, std::ceil(remaining / wanted - 1e-9));
+}
+
+bool RunTime::writeNow(double before, double after, Index step) const
+{
+    if (done(after))
+        return true;
+    if (writeControl_ == "timeStep")
+        return step % Index(writeInterval_) == 0;
+    const double half = 0.5 * (after - before);
+    return std::floor((after + half) / writeInterval_) > std::floor((before + half) / writeInterval_);
+}
+} // namespace mpm::cases

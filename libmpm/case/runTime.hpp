@@ -1,0 +1,65 @@
+#pragma once
+/// Time of a run, in OpenFOAM's words:
+///
+///     startFrom        latestTime;     // firstTime | startTime | latestTime: the stored time to go on from
+///     startTime        0;              // [s], with startFrom startTime
+///     stopAt           endTime;
+///     endTime          2.5;            // [s]
+///     deltaT           1e-3;           // [s]; the first step with adjustTimeStep yes
+///     adjustTimeStep   no;             // yes: (c_p + |v|) deltaT/h <= maxCo and 0.9 of the stability limit
+///     maxCo            0.5;            // [-]
+///     maxDeltaT        1e30;           // [s]
+///     writeControl     runTime;        // timeStep | runTime | adjustableRunTime (steps land on write times)
+///     writeInterval    0.25;           // [s], or steps
+///     purgeWrite       0;              // keep the last n written times; 0 keeps all
+///     timePrecision    6;              // digits in folder names
+///     runTimeModifiable no;            // only `no`: a run reads its dictionaries once
+///     historyInterval  1;              // steps between rows of postProcessing/history.csv
+///
+/// A run with a fixed step takes the same steps however it is cut by restarts.
+#include "dictionary/dictionary.hpp"
+
+#include <string>
+
+namespace mpm::cases
+{
+class RunTime
+{
+  public:
+    explicit RunTime(const dictionary::Dictionary& controlDict);
+
+    enum class Start
+    {
+        first,
+        given,
+        latest
+    };
+    Start start() const { return start_; }
+    double startTime() const { return startTime_; }
+    double endTime() const { return endTime_; }
+    double deltaT() const { return deltaT_; }
+    bool adjustable() const { return adjust_; }
+    double maxCo() const { return maxCo_; }
+    Index purgeWrite() const { return purge_; }
+    int timePrecision() const { return precision_; }
+    Index historyInterval() const { return history_; }
+
+    /// Is the run over at this time?
+    bool done(double time) const;
+    /// The step to take from `time`; `limit` is the largest allowed (adjustTimeStep), ignored otherwise.
+    double nextStep(double time, double limit) const;
+    /// Is the state after this step to be written?
+    bool writeNow(double timeBefore, double timeAfter, Index step) const;
+
+  private:
+    double nextWriteTime(double time) const;
+
+    Start start_;
+    double startTime_, endTime_, deltaT_, maxCo_, maxDeltaT_;
+    bool adjust_;
+    std::string writeControl_;
+    double writeInterval_;
+    Index purge_, history_;
+    int precision_;
+};
+} // namespace mpm::cases

@@ -1,0 +1,63 @@
+#pragma once
+/// A run of the solver in a case folder: what mpmSolve does between its banner and its summary.
+///
+/// Nothing is written before everything was read and checked. A state is written whole or not at all; when a step fails,
+/// the last stored time is named and untouched.
+#include "base/terminal.hpp"
+#include "case/application.hpp"
+#include "case/caseDirectory.hpp"
+#include "case/readScene.hpp"
+#include "case/runTime.hpp"
+#include "output/csvSeries.hpp"
+#include "stepping/energyBudget.hpp"
+#include "stepping/timeStep.hpp"
+
+#include <optional>
+
+namespace mpm::cases
+{
+class StrainRecorder;
+
+class SolverRun
+{
+  public:
+    /// Reads the dictionaries and the state, builds the stepper, refuses an unstable deltaT.
+    SolverRun(const CaseDirectory& folder, const Options& options);
+    ~SolverRun();
+
+    /// What was chosen, one line a fact.
+    void banner() const;
+    /// Begins postProcessing/history.csv and energyBudget.csv, or continues them.
+    void openOutput();
+    bool done() const { return runTime_->done(state_.time); }
+    void step();
+    /// History rows, states, the ParaView series and progress, as far as they are due.
+    void writeIfDue();
+    /// What happened, what it cost, what should be looked at.
+    void summary();
+
+  private:
+    TimeFolder startFolder() const;
+    void refuseLaterTimes(const TimeFolder& start) const;
+    double stepSize() const;
+    void writeRow();
+    void writeState();
+    void warnings() const;
+
+    const CaseDirectory& folder_;
+    const Options& options_;
+    std::optional<RunTime> runTime_;
+    state::State state_;
+    SceneOfCase scene_;
+    std::unique_ptr<stepping::Stepper> stepper_;
+    stepping::StabilityLimit limit_;
+    std::unique_ptr<StrainRecorder> recorder_;
+    std::unique_ptr<output::CsvSeries> history_, budget_;
+    std::unique_ptr<Progress> progress_;
+    std::string lastStored_;
+    std::vector<std::string> written_;
+    double timeBefore_ = 0, startedAt_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double seconds_ = 0, outputSeconds_ = 0;
+    Index firstStep_ = 0;
+};
+} // namespace mpm::cases

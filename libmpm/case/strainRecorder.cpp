@@ -1,0 +1,111 @@
+#include "case/strainRecorder.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace mpm::cases
+{
+namespace
+{
+/// log A = 2 (Z + Z^3/3 + Z^5/5 ...), Z = (A - I)(A + I)^-1; A close to I, as the motion of one step is.
+Eigen::Matrix3d logarithm(const Eigen::Matrix3d& A)
+{
+    const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d Z = (A - I) * (A + I).inverse(), square = Z * Z;
+    Eigen::Matrix3d power = Z, sum = Z;
+    for (int k = 3; k <= 15; k += 2)
+    {
+        power = power * square;
+        sum += power / k;
+    }
+    return 2 * sum;
+}
+} // namespace
+
+std::vector<Index> StrainRecorder::wanted(const dictionary::Dictionary& control)
+{
+    std::vector<Index> ids;
+    if (const auto* d = control.findDict("recordStrain", "strain paths of chosen particles"))
+        for (const double id : d->get<std::vector<double>>({"particles", "ids", {}, dictionary::Bound::nonNegative()}))
+        {
+            if (id != double(Index(id)))
+                d->fail("particles", fmt::format("{:g}", id), "ids, which are whole numbers");
+            ids.push_back(Index(id));
+        }
+    return ids;
+}
+
+StrainRecorder::StrainRecorder(std::vector<Index> ids, const state::State& state, const Location& where)
+{
+    for (const Index id : ids)
+    {
+        if (find(state, id) == state.particles.mass.size())
+            throw InputError(where, fmt::format("recordStrain: found no particle {}; ids are below {}", id, state.nextId));
+        paths_.push_back({id, deformation(state, id), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()});
+    }
+}
+
+std::size_t StrainRecorder::find(const state::State& state, Index id) const
+{
+    const auto& ids = state.particles.id;
+    const auto end = ids.begin() + state.particles.size();
+    const auto found = std::find(ids.begin(), end, id);
+    return found == end ? state.particles.mass.size() : std::size_t(found - ids.begin());
+}
+
+Eigen::Matrix3d StrainRecorder::deformation(const state::State& state, Index id) const
+{
+    const std::size_t n = find(state, id);
+    const int dim = state.particles.dim;
+    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+    for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+            F(i, j) = state.particles.F[i * dim + j][n];
+    return F;
+}
+
+void StrainRecorder::open(const std::filesystem::path& file, const state::State& state, std::optional<double> continueAt)
+{
+    // a path starts anew where the recording does, so a continued run does not append to an older one
+    series_ = std::make_unique<output::CsvSeries>(
+        file,
+        std::vector<std::string>{"particle", "time", "exx", "eyy", "ezz", "exy", "eyz", "ezx", "sxx", "syy", "szz", "sxy",
+                                 "syz", "szx"});
+    (void)continueAt;
+    for (const auto& path : paths_)
+        write(state, path);
+}
+
+void StrainRecorder::before(const state::State& state)
+{
+    for (auto& path : paths_)
+        path.F = deformation(state, path.id);
+}
+
+void StrainRecorder::after(const state::State& state)
+{
+    for (auto& path : paths_)
+    {
+        const Eigen::Matrix3d increment = logarithm(deformation(state, path.id) * path.F.inverse());
+        const Eigen::Matrix3d W = 0.5 * (increment - increment.transpose()), I = Eigen::Matrix3d::Identity();
+        const Eigen::Matrix3d dR = (I - 0.5 * W).inverse() * (I + 0.5 * W);
+        path.frame = dR * path.frame;
+        path.strain += path.frame.transpose() * (0.5 * (increment + increment.transpose())) * path.frame;
+        write(state, path);
+    }
+}
+
+void StrainRecorder::write(const state::State& state, const Path& path)
+{
+    const std::size_t n = find(state, path.id);
+    const auto& s = state.particles.stress;
+    const bool solid = state.particles.dim == 3;
+    Eigen::Matrix3d sigma;
+    const double yz = solid ? s[4][n] : 0, zx = solid ? s[5][n] : 0;
+    sigma << s[0][n], s[3][n], zx, s[3][n], s[1][n], yz, zx, yz, s[2][n];
+    sigma = path.frame.transpose() * sigma * path.frame;
+    const auto& e = path.strain;
+    series_->write({double(path.id), state.time, e(0, 0), e(1, 1), e(2, 2), e(0, 1), e(1, 2), e(2, 0), sigma(0, 0),
+                    sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(2, 0)});
+}
+} // namespace mpm::cases

@@ -1,0 +1,129 @@
+#include "stepping/energyBudget.hpp"
+
+#include <algorithm>
+
+namespace mpm::stepping
+{
+namespace
+{
+double strainEnergyOf(const state::Particles& p, std::size_t i, const constitutive::Law& law)
+{
+    double sigma[6] = {};
+    for (int k = 0; k < stressComponents(p.dim); ++k)
+        sigma[k] = p.stress[k][i];
+    return p.volume[i] * constitutive::elasticEnergyDensity<3>(sigma, law.bulkModulus(), law.shearModulus());
+}
+} // namespace
+
+Totals totals(const state::State& state, const std::vector<constitutive::Material>& materials)
+{
+    const auto& p = state.particles;
+    Totals t;
+    t.kineticEnergy = state.ledger.kineticEnergy;
+    for (Index i = 0; i < p.size(); ++i)
+    {
+        const std::size_t n = std::size_t(i);
+        t.mass += p.mass[n];
+        t.volume += p.volume[n];
+        t.strainEnergy += strainEnergyOf(p, n, *materials[std::size_t(p.material[n])].law);
+        for (int a = 0; a < p.dim; ++a)
+        {
+            t.momentum[a] += p.mass[n] * p.v[a][n];
+            t.extents.low[a] = i == 0 ? p.x[a][n] : std::min(t.extents.low[a], p.x[a][n]);
+            t.extents.high[a] = i == 0 ? p.x[a][n] : std::max(t.extents.high[a], p.x[a][n]);
+        }
+    }
+    return t;
+}
+
+void beginLedger(state::State& state, const std::vector<constitutive::Material>& materials)
+{
+    if (state.step > 0)
+        return;
+    auto& p = state.particles;
+    double kinetic = 0;
+    for (Index i = 0; i < p.size(); ++i)
+        for (int a = 0; a < p.dim; ++a)
+            kinetic += 0.5 * p.mass[std::size_t(i)] * p.v[a][std::size_t(i)] * p.v[a][std::size_t(i)];
+    const Totals t = totals(state, materials);
+    state.ledger.kineticEnergy = state.ledger.initialKineticEnergy = kinetic;
+    state.ledger.initialStrainEnergy = t.strainEnergy;
+    state.ledger.initialMomentum = t.momentum;
+}
+
+double residual(const state::Ledger& l, double strainEnergy)
+{
+    return l.gravityWork + l.tractionWork + l.bodyForceWork - (l.kineticEnergy - l.initialKineticEnergy) -
+           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation - l.wallLoss -
+           l.splitMergeLoss - l.transferLoss;
+}
+
+const std::vector<std::string>& historyColumns()
+{
+    static const std::vector<std::string> columns = {
+        "time",         "dt",           "particles",          "mass",                "volume",
+        "apexVolume",   "momentumX",    "momentumY",          "momentumZ",           "wallImpulseX",
+        "wallImpulseY", "wallImpulseZ", "kineticEnergy",      "strainEnergy",        "plasticDissipation",
+        "frictionDissipation", "splitMergeLoss", "transferLoss", "gravityWork",      "residual",
+        "apexReturns",  "maxYieldViolation", "minX", "maxX", "minY", "maxY", "minZ", "maxZ"};
+    return columns;
+}
+
+std::vector<double> historyRow(const state::State& s, const Totals& t, const StepReport& report)
+{
+    const auto& l = s.ledger;
+    return {s.time,
+            s.deltaT,
+            double(s.particles.size()),
+            t.mass,
+            t.volume,
+            l.apexVolume,
+            t.momentum[0],
+            t.momentum[1],
+            t.momentum[2],
+            l.wallImpulse[0],
+            l.wallImpulse[1],
+            l.wallImpulse[2],
+            t.kineticEnergy,
+            t.strainEnergy,
+            l.plasticDissipation,
+            l.frictionDissipation,
+            l.splitMergeLoss,
+            l.transferLoss,
+            l.gravityWork,
+            residual(l, t.strainEnergy),
+            double(l.apexReturns),
+            report.maxYieldViolation,
+            t.extents.low[0],
+            t.extents.high[0],
+            t.extents.low[1],
+            t.extents.high[1],
+            t.extents.low[2],
+            t.extents.high[2]};
+}
+
+const std::vector<std::string>& budgetColumns()
+{
+    static const std::vector<std::string> columns = {
+        "time",           "kineticChange", "strainChange", "plasticDissipation", "frictionDissipation", "wallLoss",
+        "splitMergeLoss", "transferLoss",  "gravityWork",  "tractionWork",       "bodyForceWork",       "residual"};
+    return columns;
+}
+
+std::vector<double> budgetRow(const state::State& s, const Totals& t)
+{
+    const auto& l = s.ledger;
+    return {s.time,
+            l.kineticEnergy - l.initialKineticEnergy,
+            t.strainEnergy - l.initialStrainEnergy,
+            l.plasticDissipation,
+            l.frictionDissipation,
+            l.wallLoss,
+            l.splitMergeLoss,
+            l.transferLoss,
+            l.gravityWork,
+            l.tractionWork,
+            l.bodyForceWork,
+            residual(l, t.strainEnergy)};
+}
+} // namespace mpm::stepping

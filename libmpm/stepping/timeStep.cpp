@@ -1,0 +1,42 @@
+#include "stepping/timeStep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm::stepping
+{
+double criticalCourant(bool hasDomain, StressUpdate update, double smallestNodalMassFraction)
+{
+    if (update != StressUpdate::USL)
+        return 1.4;
+    return hasDomain ? 0.65 : std::min(0.67, 1.8 * std::sqrt(smallestNodalMassFraction));
+}
+
+double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials)
+{
+    std::vector<bool> used(materials.size(), false);
+    for (Index i = 0; i < state.particles.size(); ++i)
+        used[std::size_t(state.particles.material[std::size_t(i)])] = true;
+    double fastest = 0;
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        if (used[m])
+            fastest = std::max(fastest, materials[m].waveSpeed());
+    return fastest;
+}
+
+StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool hasDomain)
+{
+    StabilityLimit limit;
+    const bool needsMass = scene.stressUpdate == StressUpdate::USL && !hasDomain;
+    limit.courant =
+        criticalCourant(hasDomain, scene.stressUpdate, needsMass ? stepper.smallestNodalMassFraction() : 1.0);
+    limit.waveSpeed = fastestWave(state, scene.materials);
+    limit.deltaT = limit.courant * state.grid.h / limit.waveSpeed;
+    return limit;
+}
+
+std::string stressUpdateName(StressUpdate update)
+{
+    return update == StressUpdate::USF ? "USF" : update == StressUpdate::USL ? "USL" : "MUSL";
+}
+} // namespace mpm::stepping
