@@ -54,7 +54,7 @@ std::string nearestWord(const std::string& word, const std::vector<std::string>&
     std::string best;
     if (word.size() > longestWord)
         return best;
-    std::size_t bestDistance = 2 + word.size() / 3;
+    std::size_t bestDistance = std::min(2 + word.size() / 3, word.size());
     for (std::size_t i = 0; i < std::min(candidates.size(), mostCandidates); ++i)
     {
         const std::string& candidate = candidates[i];

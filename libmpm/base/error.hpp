@@ -32,7 +32,8 @@ class StepError : public std::runtime_error
     explicit StepError(const std::string& what);
 };
 
-/// The candidate closest to `word` by edit distance, ignoring case; empty if none is near (distance > 1 + length/3).
+/// The candidate closest to `word` by edit distance, ignoring case; empty if none is near: the distance is at
+/// most 1 + length/3 and less than the length. Words beyond 64 characters have no near ones.
 std::string nearestWord(const std::string& word, const std::vector<std::string>& candidates);
 
 /// " a, b or c" for messages.

@@ -64,7 +64,7 @@ std::unique_ptr<Node> Parser::parseFile(const fs::path& file)
 {
     std::string text = load(file, nullptr);
     reading_.push_back(realPath(file));
-    auto top = parseText(std::move(text), file.string());
+    auto top = parseText(std::move(text), file.lexically_normal().string());
     reading_.pop_back();
     return top;
 }
@@ -75,7 +75,7 @@ std::string Parser::load(const fs::path& file, const Token* from)
     const auto fail = [&](const std::string& what) {
         if (from)
             throw InputError(from->where(), fmt::format("#include {}: {}", shownText(from->text), what));
-        throw InputError({file.string(), 0}, what);
+        throw InputError({file.lexically_normal().string(), 0}, what);
     };
     std::error_code error;
     const auto status = fs::status(file, error);
