@@ -11,16 +11,10 @@ namespace mpm::smoothing
 Overburden::Overburden(const state::State& state, const Vector3& gravity)
     : dim_(state.particles.dim), width_(state.grid.h), origin_(state.grid.origin)
 {
-    int count = 0;
-    for (int a = 0; a < 3; ++a)
-        if (gravity[std::size_t(a)] != 0)
-        {
-            up_ = a;
-            ++count;
-        }
-    if (count != 1 || up_ >= dim_)
+    if (!defined(gravity, dim_))
         throw InputError(fmt::format("overburden needs gravity along one axis, found ({:g} {:g} {:g})", gravity[0],
                                      gravity[1], gravity[2]));
+    up_ = int(std::find_if(gravity.begin(), gravity.end(), [](double g) { return g != 0; }) - gravity.begin());
     if (!(width_ > 0))
         throw InputError("overburden needs the state's grid");
     g_ = std::abs(gravity[std::size_t(up_)]);
@@ -30,6 +24,13 @@ Overburden::Overburden(const state::State& state, const Vector3& gravity)
         addParticle(state, p);
     for (auto& [cell, column] : columns_)
         std::sort(column.begin(), column.end(), [](const Share& a, const Share& b) { return a.top > b.top; });
+}
+
+bool Overburden::defined(const Vector3& gravity, int dim)
+{
+    const auto isZero = [](double g) { return g == 0; };
+    return std::count_if(gravity.begin(), gravity.end(), isZero) == 2 &&
+           std::count_if(gravity.begin(), gravity.begin() + dim, isZero) == dim - 1;
 }
 
 void Overburden::addParticle(const state::State& state, Index particle)

@@ -21,8 +21,11 @@ namespace mpm::smoothing
 class Overburden
 {
   public:
-    /// gravity [m/s^2]. Throws InputError unless exactly one component is not zero.
+    /// gravity [m/s^2]. Throws InputError unless it points along one axis and the state has a grid.
     Overburden(const state::State& state, const Vector3& gravity);
+
+    /// Is there an overburden: gravity along one axis?
+    static bool defined(const Vector3& gravity, int dim);
 
     int axis() const { return up_; } ///< the vertical axis, also the stress component that overburden stands for
     double atParticle(Index p) const; ///< [Pa], negative under load

@@ -55,17 +55,21 @@ StressQuality stressQuality(const state::State& state, const WeightTable& table,
                             const Vector3& gravity, std::vector<double>* overburden)
 {
     const auto& p = state.particles;
-    const Overburden above(state, gravity);
-    const auto axis = std::size_t(above.axis());
-    std::vector<double> atParticles, atNodes;
-    for (Index i = 0; i < p.size(); ++i)
-        atParticles.push_back(above.atParticle(i));
-    for (const auto& x : smoothed.nodePosition)
-        atNodes.push_back(above.atPoint(x));
+    StressQuality quality;
+    std::vector<double> atParticles(std::size_t(p.size()), std::nan("")), atNodes(smoothed.nodePosition.size(), std::nan(""));
+    if (Overburden::defined(gravity, p.dim))
+    {
+        const Overburden above(state, gravity);
+        quality.axis = above.axis();
+        for (Index i = 0; i < p.size(); ++i)
+            atParticles[std::size_t(i)] = above.atParticle(i);
+        for (std::size_t n = 0; n < atNodes.size(); ++n)
+            atNodes[n] = above.atPoint(smoothed.nodePosition[n]);
+    }
+    const auto axis = std::size_t(quality.axis);
     const std::vector<double> raw(p.stress[axis].begin(), p.stress[axis].begin() + p.size());
     const auto& smooth = smoothed.smoothed[axis];
 
-    StressQuality quality;
     quality.nodal = fieldQuality(smoothed.nodal[axis], atNodes);
     quality.raw = fieldQuality(raw, atParticles);
     quality.smoothed = fieldQuality(smooth, atParticles);

@@ -21,6 +21,7 @@ struct FieldQuality
 
 struct StressQuality
 {
+    int axis = 1; ///< of the normal stress looked at
     FieldQuality nodal, raw, smoothed;
     double noise = 0;      ///< N
     double noiseFloor = 0; ///< N floor
@@ -33,7 +34,8 @@ FieldQuality fieldQuality(const std::vector<double>& values, const std::vector<d
 /// sqrt(mean (a - b)^2) / sqrt(mean b^2)
 double relativeDifference(const std::vector<double>& a, const std::vector<double>& b);
 
-/// For the normal stress along gravity. overburden, if given, receives the overburden of every particle.
+/// For the normal stress along gravity. Without gravity along one axis there is no overburden: sigma_yy is taken, and
+/// what compares with overburden is not a number. overburden, if given, receives that of every particle.
 StressQuality stressQuality(const state::State& state, const WeightTable& table, const SmoothedStress& smoothed,
                             const Vector3& gravity, std::vector<double>* overburden = nullptr);
 } // namespace mpm::smoothing

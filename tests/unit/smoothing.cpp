@@ -329,4 +329,9 @@ TEST_CASE("a linear heap has no noise beyond its floor, a checkerboard has much"
     CHECK(erratic.noiseFloor == Approx(calm.noiseFloor));
     CHECK(erratic.raw.correlation < 0.6);
     CHECK(erratic.smoothed.correlation > 0.95);
+
+    const auto weightless = stressQuality(state, table, smoothStress(p, table), {0, 0, 0});
+    CHECK(weightless.noise == erratic.noise);
+    CHECK(std::isnan(weightless.raw.correlation));
+    CHECK(std::isnan(weightless.noiseFloor));
 }
