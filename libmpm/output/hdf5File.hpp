@@ -1,6 +1,6 @@
 #pragma once
 /// One HDF5 file: typed arrays with a shape, attributes and texts. A thin layer over the C library (hdf5File.cpp is the
-/// only place that knows it), serial, little-endian on disk.
+/// only place that knows it; hdf5Values.cpp has the types), serial, little-endian on disk.
 ///
 /// Names are absolute ("/particles/mass"); writing makes the groups in between. Every failure is an InputError that
 /// names the file and the object; HDF5's own messages are switched off.
@@ -71,7 +71,6 @@ class Hdf5File
     template <class T>
     std::vector<T> read(const std::string& name, const Shape& expected) const;
     double readReal(const std::string& name) const { return read<double>(name, {}).front(); }
-    Index readInteger(const std::string& name) const { return read<std::int64_t>(name, {}).front(); }
     std::string readText(const std::string& name) const;
     double realAttribute(const std::string& object, const std::string& name) const;
     Index integerAttribute(const std::string& object, const std::string& name) const;
@@ -83,10 +82,50 @@ class Hdf5File
     [[noreturn]] void fail(const std::string& object, const std::string& message) const;
 
   private:
+    /// Element type on the disk, without HDF5's words: real or integer of 4 or 8 bytes, text of any length.
+    struct Element
+    {
+        enum class Kind
+        {
+            real,
+            integer,
+            text,
+            other
+        };
+        Kind kind = Kind::other;
+        std::size_t bytes = 0;
+        bool operator==(const Element&) const = default;
+        std::string text() const; ///< "64-bit float"
+    };
+    struct Found
+    {
+        Element element;
+        Shape shape;
+    };
+    template <class T>
+    static Element elementOf();
+
     Hdf5File(std::filesystem::path file, std::int64_t handle);
+    static std::int64_t openExisting(const std::filesystem::path& file, bool writable);
+
+    // hdf5File.cpp: bytes and handles. An empty attribute name means the dataset itself.
+    void store(const std::string& object, const std::string& attribute, Element element, const Shape& shape,
+               const void* values);
+    Found find(const std::string& object, const std::string& attribute) const;
+    /// Checks that the bytes lie in the file and within the allowance, which they use up; returns the element count.
+    std::uint64_t claim(const std::string& object, const std::string& attribute, const Found& found) const;
+    void fetch(const std::string& object, const std::string& attribute, Element element, void* values) const;
+
+    // hdf5Values.cpp: typed values on top of these.
+    template <class T>
+    std::vector<T> values(const std::string& object, const std::string& attribute, const Shape& expected) const;
+    std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
+    void storeTexts(const std::string& object, const std::string& attribute, const std::vector<std::string>& texts,
+                    const Shape& shape);
+    [[noreturn]] void fail(const std::string& object, const std::string& attribute, const std::string& message) const;
 
     std::filesystem::path path_;
-    std::int64_t file_ = -1;             ///< HDF5's handle
+    std::int64_t file_ = -1;              ///< HDF5's handle
     mutable std::uint64_t allowance_ = 0; ///< bytes that may still be read
 };
 } // namespace mpm::output

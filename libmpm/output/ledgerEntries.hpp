@@ -34,7 +34,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    // A new member of Ledger must be added above, or a restart would lose it.
-    static_assert(sizeof(state::Ledger) == 31 * 8);
+    static_assert(sizeof(state::Ledger) == 31 * 8,
+                  "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

@@ -154,8 +154,10 @@ void writeLedger(Hdf5File& file, const state::Ledger& ledger, int dim)
         const std::string text = dim == 2 ? unit + "/m" : unit;
         if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vector3>)
             file.write<double>("/ledger/" + name, value, {3}, text);
+        else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+            file.writeScalar("/ledger/" + name, value, text);
         else
-            file.writeScalar("/ledger/" + name, value, unit == "1" ? unit : text);
+            file.writeScalar("/ledger/" + name, Index(value), unit);
     });
 }
 
@@ -168,8 +170,10 @@ void readLedger(const Hdf5File& file, state::Ledger& ledger)
             const auto values = file.read<double>("/ledger/" + name, {3});
             std::copy(values.begin(), values.end(), value.begin());
         }
+        else if constexpr (std::is_same_v<Value, double>)
+            value = file.readReal("/ledger/" + name);
         else
-            value = file.read<Value>("/ledger/" + name, {}).front();
+            value = Value(file.read<Index>("/ledger/" + name, {}).front());
     });
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// A state in which every number differs and no array is trivial, valid, in the order (sortKey, id).
+#include "output/ledgerEntries.hpp"
 #include "state/state.hpp"
 
 #include <cmath>
 #include <random>
+#include <type_traits>
 
 namespace mpm::tests
 {
@@ -48,19 +50,15 @@ inline state::State sampleState(int dim, Index n)
     state.grid.h = 4.0 / 15.0;
     state.grid.cells = {105, 45, dim == 3 ? 3 : 1};
     state.materials = {"soil", "rock"};
-    auto& ledger = state.ledger;
     double value = 0.1;
-    for (double* entry : {&ledger.plasticDissipation, &ledger.frictionDissipation, &ledger.wallLoss,
-                          &ledger.splitMergeLoss, &ledger.transferLoss, &ledger.gravityWork, &ledger.tractionWork,
-                          &ledger.apexVolume, &ledger.bodyForceWork, &ledger.kineticEnergy, &ledger.initialKineticEnergy,
-                          &ledger.initialStrainEnergy, &ledger.pendingForceWork, &ledger.splitAngularMomentum})
-        *entry = (value *= -1.7);
-    for (Vector3* entry :
-         {&ledger.wallImpulse, &ledger.gravityImpulse, &ledger.tractionImpulse, &ledger.initialMomentum})
-        *entry = {value *= 1.1, value *= -1.3, value *= 1.9};
-    ledger.apexReturns = 12;
-    ledger.splits = 34;
-    ledger.splitsPutOff = 56;
+    output::forEachLedgerEntry(state.ledger, [&](const std::string& name, auto& entry, const std::string&) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(entry)>, Vector3>)
+            entry = {value *= 1.1, value *= -1.3, value *= 1.9};
+        else if constexpr (std::is_same_v<std::decay_t<decltype(entry)>, double>)
+            entry = (value *= -1.7);
+        else
+            entry = Index(name.size() * 7 + std::size_t(name[0]));
+    });
 
     for (const char* name : {"top", "side/left 100%", "base"})
     {

@@ -1,5 +1,6 @@
 #include "base/error.hpp"
 #include "output/csvSeries.hpp"
+#include "support/fileContents.hpp"
 #include "support/fullDisk.hpp"
 #include "support/temporaryFolder.hpp"
 
@@ -8,21 +9,15 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 using namespace mpm;
 using mpm::output::CsvSeries;
+using mpm::tests::contents;
 using mpm::tests::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace
 {
-std::string contents(const fs::path& file)
-{
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 const std::vector<std::string> columns{"time", "energy"};
 } // namespace
 
