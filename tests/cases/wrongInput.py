@@ -158,6 +158,12 @@ class WrongInput(unittest.TestCase):
 
     def test_wall_named_after_no_boundary(self):
         self.seed()
+        path = self.case / "constant" / "boundaryConditions"
+        path.write_text(path.read_text().split("base")[0] + "bsae { type roller; }\n")
+        self.assert_refused("mpmSolve", says=["constant/boundaryConditions:", "bsae", "base", "sides", "top"])
+
+    def test_misspelt_type_of_a_wall(self):
+        self.seed()
         self.break_line("constant/boundaryConditions", "type            friction", "type            frction ")
         self.assert_refused("mpmSolve", says=["constant/boundaryConditions:", "frction", "friction", "roller"])
 

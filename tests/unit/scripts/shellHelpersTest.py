@@ -99,8 +99,17 @@ class ShellHelpers(unittest.TestCase):
         self.assertIn("the last words", err)
         self.assertIn("log.doWork", err)
         code, out, _ = self.shell(script)
-        self.assertEqual(code, 0)
-        self.assertIn("went on", out)
+        self.assertEqual((code, out), (0, f"Running doWork on {self.case}\nwent on\n"))
+
+    def test_an_interrupted_step_runs_again(self):
+        script = f". {self.project}/etc/RunFunctions; runApplication doWork; echo went on"
+        (self.project / "build" / "bin" / "doWork").write_text("#!/bin/bash\necho started; kill -INT $PPID; sleep 0.2\n")
+        code, out, _ = self.shell(script)
+        self.assertEqual(code, 130)
+        self.assertNotIn("went on", out)
+        (self.project / "build" / "bin" / "doWork").write_text(UTILITY)
+        _, out, _ = self.shell(script)
+        self.assertIn("Running doWork", out)
 
     def test_a_utility_that_is_not_there_is_a_failure(self):
         code, _, err = self.shell(f". {self.project}/etc/RunFunctions; runApplication noSuchThing")
