@@ -199,7 +199,7 @@ void readBoundaries(const Dictionary& d, const state::State& state, stepping::Sc
     }
 }
 
-splitting::Rule readSplitting(const Dictionary& d)
+splitting::Rule readSplitRule(const Dictionary& d)
 {
     splitting::Rule rule;
     rule.threshold =
@@ -209,10 +209,16 @@ splitting::Rule readSplitting(const Dictionary& d)
                          "fourWay") == "fourWay"
                     ? splitting::Mode::fourWay
                     : splitting::Mode::stretched;
-    rule.interval = d.get<Index>({"interval", "steps between checks", {}, Bound::atLeast(1), rule.interval});
     rule.maxParticles = d.get<Index>({"maxParticles", "cap on their number", {}, Bound::atLeast(1), rule.maxParticles});
     rule.maxGeneration = int(
         d.get<Index>({"maxGeneration", "halvings of one particle", {}, Bound::between(0, 30), rule.maxGeneration}));
+    return rule;
+}
+
+splitting::Rule readSplitting(const Dictionary& d)
+{
+    splitting::Rule rule = readSplitRule(d);
+    rule.interval = d.get<Index>({"interval", "steps between checks", {}, Bound::atLeast(1), rule.interval});
     return rule;
 }
 

@@ -33,7 +33,9 @@ void readBoundaries(const dictionary::Dictionary& boundaryConditions, const stat
 /// Shape's name; the rest goes into the scene.
 std::string readSchemes(const dictionary::Dictionary& mpmSchemes, const state::State& state, stepping::Scene& scene);
 
-/// Words of a splitting dictionary.
+/// The words solver and splitParticles share: threshold, mode, maxParticles, maxGeneration.
+splitting::Rule readSplitRule(const dictionary::Dictionary& splitting);
+/// The same and interval.
 splitting::Rule readSplitting(const dictionary::Dictionary& splitting);
 
 struct SceneOfCase
