@@ -1,0 +1,138 @@
+// Shape functions against what defines them: partition of unity, the mean of the hat over the particle's domain
+// (METHOD Eq. 4, integrated numerically), derivatives, and the limit of vanishing domains.
+#include "shape/cpGIMP.hpp"
+#include "shape/linear.hpp"
+#include "shape/uGIMP.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace mpm;
+
+namespace
+{
+constexpr double h = 0.3, origin = -0.7;
+
+double hat(double d)
+{
+    return std::max(0.0, 1 - std::abs(d) / h);
+}
+
+/// Mean of the hat of `node` over [x - l, x + l]: exact by Simpson's rule between the hat's kinks.
+double meanOfHat(double node, double x, double l)
+{
+    std::vector<double> cuts = {x - l, x + l};
+    for (const double kink : {node - h, node, node + h})
+        if (kink > x - l && kink < x + l)
+            cuts.push_back(kink);
+    std::sort(cuts.begin(), cuts.end());
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+        sum += 0.5 * (cuts[i + 1] - cuts[i]) * (hat(cuts[i] - node) + hat(cuts[i + 1] - node));
+    return sum / (2 * l);
+}
+
+struct Lanes
+{
+    alignas(64) double x[lanes], lambda[lanes];
+};
+
+Lanes randomLanes(double lowLambda, double highLambda)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(0, 8 * h), size(lowLambda, highLambda);
+    Lanes out;
+    for (int l = 0; l < lanes; ++l)
+    {
+        out.x[l] = origin + place(random);
+        out.lambda[l] = size(random);
+    }
+    // places where branches meet
+    out.x[0] = origin + h;
+    out.x[1] = origin + 1.5 * h;
+    out.x[2] = origin + h * (1 + out.lambda[2]);
+    out.x[3] = origin + h * (2 - out.lambda[3]);
+    return out;
+}
+
+template <class Shape>
+shape::AxisWeights<Shape::nodes> weights(const Lanes& at)
+{
+    shape::AxisWeights<Shape::nodes> w;
+    Shape::evaluate(at.x, at.lambda, origin, 1 / h, w);
+    return w;
+}
+
+template <class Shape>
+void checkSums(const Lanes& at)
+{
+    const auto w = weights<Shape>(at);
+    for (int l = 0; l < lanes; ++l)
+    {
+        double sum = 0, slope = 0, first = 0;
+        for (int n = 0; n < Shape::nodes; ++n)
+        {
+            CHECK(w.N[n][l] >= 0);
+            sum += w.N[n][l];
+            slope += w.G[n][l];
+            first += w.N[n][l] * (origin + h * (w.base[l] + n));
+        }
+        CHECK(sum == Approx(1).epsilon(1e-14));
+        CHECK(std::abs(slope) < 1e-13 / h);
+        CHECK(first == Approx(at.x[l]).margin(1e-14)); // linear fields are reproduced
+    }
+}
+
+template <class Shape>
+void checkAgainstIntegral(const Lanes& at)
+{
+    const auto w = weights<Shape>(at);
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double half = at.lambda[l] * h;
+        double caught = 0;
+        for (int n = 0; n < Shape::nodes; ++n)
+        {
+            const double node = origin + h * (w.base[l] + n);
+            CHECK(w.N[n][l] == Approx(meanOfHat(node, at.x[l], half)).margin(1e-13));
+            CHECK(w.G[n][l] * h == Approx((hat(at.x[l] + half - node) - hat(at.x[l] - half - node)) / (2 * half) * h).margin(1e-12));
+            caught += meanOfHat(node, at.x[l], half);
+        }
+        CHECK(caught == Approx(1).epsilon(1e-13)); // no node of the support is missed
+    }
+}
+} // namespace
+
+TEST_CASE("weights sum to one, gradients to zero, linear fields are kept")
+{
+    checkSums<shape::Linear>(randomLanes(0.1, 0.5));
+    checkSums<shape::UGIMP>(randomLanes(0.01, 0.5));
+    checkSums<shape::CpGIMP>(randomLanes(0.01, 1.0));
+}
+
+TEST_CASE("GIMP weights are means of the hat over the particle's domain")
+{
+    checkAgainstIntegral<shape::UGIMP>(randomLanes(0.02, 0.5));
+    checkAgainstIntegral<shape::CpGIMP>(randomLanes(0.02, 0.5));
+    checkAgainstIntegral<shape::CpGIMP>(randomLanes(0.5, 1.0)); // wider than a cell: four nodes
+}
+
+TEST_CASE("vanishing domains give the original method")
+{
+    auto at = randomLanes(1e-12, 1e-12);
+    for (int l = 0; l < 4; ++l)
+        at.x[l] = origin + h * (l + 0.37); // away from cell faces, where the linear gradient jumps
+    const auto exact = weights<shape::Linear>(at);
+    const auto u = weights<shape::UGIMP>(at);
+    const auto cp = weights<shape::CpGIMP>(at);
+    for (int l = 0; l < lanes; ++l)
+        for (int n = 0; n < 2; ++n)
+        {
+            const int inU = exact.base[l] + n - u.base[l], inCp = exact.base[l] + n - cp.base[l];
+            REQUIRE((inU >= 0 && inU < 3 && inCp >= 0 && inCp < 4));
+            CHECK(u.N[inU][l] == Approx(exact.N[n][l]).margin(1e-11));
+            CHECK(cp.N[inCp][l] == Approx(exact.N[n][l]).margin(1e-11));
+            CHECK(u.G[inU][l] == Approx(exact.G[n][l]).epsilon(1e-11));
+            CHECK(cp.G[inCp][l] == Approx(exact.G[n][l]).epsilon(1e-11));
+        }
+}
