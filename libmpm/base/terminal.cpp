@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <iostream>
 #include <sys/ioctl.h>
@@ -70,7 +71,8 @@ std::string formatBytes(double bytes)
 
 bool isTerminal()
 {
-    return isatty(STDOUT_FILENO) != 0;
+    const char* kind = std::getenv("TERM");
+    return isatty(STDOUT_FILENO) != 0 && !(kind && std::string(kind) == "dumb"); // a dumb one cannot redraw a line
 }
 
 int terminalWidth()
@@ -80,7 +82,7 @@ int terminalWidth()
 }
 
 Progress::Progress(std::string what, double begin, double end)
-    : Progress(std::move(what), begin, end, {&std::cout, isTerminal(), terminalWidth(), steadySeconds})
+    : Progress(std::move(what), begin, end, {&std::cout, isTerminal(), 0, steadySeconds})
 {}
 
 Progress::Progress(std::string what, double begin, double end, Surroundings surroundings)
@@ -156,8 +158,9 @@ void Progress::draw(double now, const std::string& details)
         const int filled = int(done * barWidth);
         std::string line = fmt::format("{} [{}{}] {:3.0f} %  {}", what_, std::string(std::size_t(filled), '='),
                                        std::string(std::size_t(barWidth - filled), ' '), std::floor(done * 100), state);
-        if (columns(line) >= std::size_t(surroundings_.width)) // a wrapped line could not be redrawn
-            line.resize(std::size_t(std::max(surroundings_.width - 1, 0)));
+        const int width = surroundings_.width > 0 ? surroundings_.width : terminalWidth();
+        if (columns(line) >= std::size_t(width)) // a wrapped line could not be redrawn
+            line.resize(std::size_t(width - 1));
         const std::size_t length = columns(line);
         out << '\r' << line << std::string(lineLength_ > length ? lineLength_ - length : 0, ' ') << std::flush;
         lineLength_ = length;

@@ -32,7 +32,7 @@ class Progress
     {
         std::ostream* out = nullptr;
         bool terminal = false;
-        int width = 80;
+        int width = 80;                ///< columns; 0: ask the terminal at every line, it may be resized
         std::function<double()> clock; ///< seconds
     };
 

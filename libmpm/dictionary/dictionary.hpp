@@ -2,18 +2,37 @@
 /// Dictionaries in OpenFOAM's syntax, read once, asked by typed entries, every mistake reported with file:line.
 ///
 ///     // materialProperties
+///     stiffness       20e6;
 ///     soil
 ///     {
 ///         law             mohrCoulomb;
-///         E               [1 -1 -2 0 0 0 0] 20e6;   // dimensions are optional and checked when given
+///         E               [1 -1 -2 0 0 0 0] $stiffness;  // dimensions are optional and checked when given
 ///         frictionAngle   42;
-///         origin          (0 0 0);
+///         initialVelocity (0 0 0);                       // or: uniform (0 0 0)
+///         layers          3(0 2 4.5);                    // the count before a list is optional and checked
+///         title           "soft soil";
 ///     }
-///     #include "other"                              // stays inside the case folder and etc
-///     copy $soil;  E $soil.E;                       // macros
+///     clay { $soil; E 5e6; }                             // everything of soil, E replaced
+///     copy $soil;                                        // a dictionary of its own
+///     #include "../constant/other"                       // also <case>/ <system>/ <constant>/ <etc>/, #includeEtc
+///
+/// Macros find their words as in OpenFOAM 1912: `$E` here, then in the dictionaries around; `$sub.E` in sub of this
+/// dictionary only; `$..E` one dictionary up, `$...E` two; `$:soil.E` from the top; `${E}` the same as `$E`. A word must
+/// stand before the macro that uses it, and a dictionary has no name before its closing brace. The environment is not
+/// looked into.
+///
+/// Stricter than OpenFOAM: a word given twice is an error (except the FoamFile header), unless it first came through
+/// `$dict;` or #include and is then replaced by what stands in the dictionary itself, nested dictionaries being merged;
+/// so is a missing ';'. Refused by name: regular expressions as words, #calc, #codeStream, #if and every other
+/// directive, dictionaries inside lists, unit names in dimensions, numbers that are not finite in double precision.
 ///
 /// A word nobody reads is an error: rejectUnread() after everything was asked. It knows the allowed words because every
-/// question (get, choose, subDict, found) leaves its word in the dictionary's schema.
+/// question (get, choose, subDict, found) leaves its word in the dictionary's schema. A word only macros use counts as
+/// read.
+///
+/// Text nobody vouches for does no harm: files up to 4 MB, 64 MB for the tree with its macros expanded, nesting up to 100,
+/// includes up to 10 deep and 200 in all, and only from the case folder and the project's etc, symbolic links followed.
+/// tests/unit/dictionaryMistakes.txt lists what is refused and the messages, word for word.
 #include "base/error.hpp"
 #include "base/types.hpp"
 

@@ -100,11 +100,7 @@ void Parser::merge(Node& node, const Token& variable)
     copy.path = node.path;
     copyInto(*source.dict, copy, layer_ + 1, variable.where());
     for (NodeEntry& entry : copy.entries)
-    {
-        if (entry.dict)
-            entry.dict->parent = &node;
         place(node, std::move(entry), variable.where());
-    }
 }
 
 void Parser::copyInto(const Node& from, Node& to, int layer, const Location& where)

@@ -243,6 +243,8 @@ std::vector<Token> Parser::readValue(Node& node, Tokenizer& in, const Token& key
 void Parser::place(Node& node, NodeEntry entry, const Location& where)
 {
     charge(sizeof(NodeEntry) + sizeof(Node) + 4 * entry.word.size() + node.path.size(), where);
+    if (entry.dict)
+        entry.dict->parent = &node; // a copy was made elsewhere
     NodeEntry* old = node.find(entry.word);
     if (!old)
     {

@@ -101,10 +101,7 @@ std::string Token::source() const
 
 Tokenizer::Tokenizer(std::string text, std::string file)
     : text_(std::move(text)), file_(std::make_shared<const std::string>(std::move(file)))
-{
-    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0)
-        fail(1, "found a byte order mark, allowed plain text without one");
-}
+{}
 
 void Tokenizer::fail(int line, const std::string& what) const
 {
@@ -152,6 +149,8 @@ Token Tokenizer::next()
     skipBlanks();
     if (over())
         return make(Kind::end, "", line_);
+    if (text_.compare(at_, 3, "\xEF\xBB\xBF") == 0)
+        fail(line_, "found a byte order mark, allowed plain text without one");
     const char c = peek();
     switch (c)
     {
@@ -185,12 +184,15 @@ void Tokenizer::refuseCharacter(char c) const
 {
     if (isControl(c))
         fail(line_, fmt::format("found the byte 0x{:02x}, allowed only text", static_cast<unsigned char>(c)));
-    const std::string hint = c == '='    ? "a word and its value are separated by a blank: 'word value;'"
-                             : c == ','  ? "numbers and words of a list are separated by blanks"
-                             : c == '/'  ? "a path stands in quotes, and nothing is calculated here"
-                             : c == '*'  ? "nothing is calculated here, write the number"
-                             : c == '\'' ? "a text stands in double quotes"
-                                         : "a word begins with a letter or '_'";
+    const std::size_t bracket = text_.find_last_of("[]\n", at_);
+    const bool inDimensions = bracket != std::string::npos && text_[bracket] == '[';
+    const std::string hint = inDimensions ? "dimensions are 5 or 7 exponents [kg m s K mol A cd]"
+                             : c == '='   ? "a word and its value are separated by a blank: 'word value;'"
+                             : c == ','   ? "numbers and words of a list are separated by blanks"
+                             : c == '/'   ? "a path stands in quotes, and nothing is calculated here"
+                             : c == '*'   ? "nothing is calculated here, write the number"
+                             : c == '\''  ? "a text stands in double quotes"
+                                          : "a word begins with a letter or '_'";
     fail(line_, fmt::format("found '{}'; {}", c, hint));
 }
 

@@ -249,7 +249,7 @@ TEST_CASE("every ending has its message and its exit code")
     CHECK(ending([](const Options&) { return fs::create_directory("/proc/mpm/none"), 0; }).substr(0, 2) == "1 ");
 }
 
-TEST_CASE("-help, -version and -completionWords print to standard output and stop")
+TEST_CASE("help, version and completion words print to standard output and stop")
 {
     Folder folder;
     const auto help = run(folder, {"-case", "/nowhere", "-nonsense", "-help"}, unreachable);
