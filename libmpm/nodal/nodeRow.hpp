@@ -2,7 +2,7 @@
 /// One row of nodes (constant j, k) while the nodal equations are solved, METHOD Eqs. 1-3 and Walls.
 ///
 /// Before: record lanes hold mass, momentum, force. The row turns them into velocity before (v_i) and trial velocity
-/// u = v_i + dt f/m; effects then change u; at the end u is v* and the acceleration (v* - v_i)/dt.
+/// u = v_i + dt f/m; body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
 #include "base/record.hpp"
 #include "base/types.hpp"
 
@@ -51,9 +51,29 @@ struct NodeRow
     double dt = 0;
     double smallestMass = 0;           ///< nodes lighter than this carry nothing
     NodeSums* sums = nullptr;
-    /// Wall impulses per node of the row, friction and other, for the work split; empty while no wall touched it.
-    std::vector<Vector3>* frictionImpulse = nullptr;
-    std::vector<Vector3>* normalImpulse = nullptr;
+    /// What walls did at each node of the row, all empty while none touched it.
+    struct WallScratch
+    {
+        std::vector<Vector3> pushed;   ///< normal velocity taken away along each axis
+        std::vector<Vector3> friction; ///< impulses of friction
+        std::vector<Vector3> other;    ///< all other impulses
+
+        void clear()
+        {
+            pushed.clear();
+            friction.clear();
+            other.clear();
+        }
+        void open(std::size_t n)
+        {
+            if (!pushed.empty())
+                return;
+            pushed.assign(n, {});
+            friction.assign(n, {});
+            other.assign(n, {});
+        }
+    };
+    WallScratch* walls = nullptr;
 
     static constexpr int velocity = 1;    ///< first lane of v_i
     static constexpr int trial = 1 + dim; ///< first lane of f, then u
@@ -61,18 +81,14 @@ struct NodeRow
     bool carries(Index i) const { return node[i][0] > smallestMass; }
 };
 
-/// An effect that acts on nodes: in the order of the dictionary, on every row.
+/// A body effect on nodes: changes the trial velocity, then books what it did once u is final.
 template <int dim>
 class NodeEffect
 {
   public:
     virtual ~NodeEffect() = default;
-    /// Changes the trial velocity u = v_i + dt f/m and books what it did.
     virtual void apply(NodeRow<dim>& row) const = 0;
-    /// Books work and impulse once u is final.
     virtual void book(NodeRow<dim>&) const {}
-    /// Makes a velocity that strains are taken from obey the effect (walls); lanes `trial`, nothing is booked.
-    virtual void constrain(NodeRow<dim>&) const {}
 };
 
 /// f -> u for a row; p -> v_i.
@@ -95,7 +111,7 @@ void beginRow(NodeRow<dim>& row)
 template <int dim>
 void endRow(NodeRow<dim>& row, double inverseDt)
 {
-    const bool walls = !row.normalImpulse->empty();
+    const bool walls = !row.walls->pushed.empty();
     double before = 0, after = 0;
     for (Index i = row.begin; i < row.end; ++i)
     {
@@ -108,8 +124,8 @@ void endRow(NodeRow<dim>& row, double inverseDt)
             uu += u * u;
             if (walls)
             {
-                const Vector3& jn = (*row.normalImpulse)[std::size_t(i - row.begin)];
-                const Vector3& jt = (*row.frictionImpulse)[std::size_t(i - row.begin)];
+                const Vector3& jn = row.walls->other[std::size_t(i - row.begin)];
+                const Vector3& jt = row.walls->friction[std::size_t(i - row.begin)];
                 row.sums->wallLoss -= jn[a] * 0.5 * (v + u);
                 row.sums->frictionLoss -= jt[a] * 0.5 * (v + u);
                 row.sums->wallImpulse[a] += jn[a] + jt[a];

@@ -5,92 +5,67 @@
 
 namespace mpm::nodal
 {
-namespace
-{
-/// The change of u at one node; normal and tangential parts apart.
-template <int dim>
-bool wallChange(const Wall& wall, const Record& r, Vector3& normal, Vector3& tangential)
-{
-    constexpr int u0 = NodeRow<dim>::trial;
-    const double un = wall.side * r[u0 + wall.axis];
-    const bool pushes = un > 0;
-    normal = tangential = {};
-    if (!pushes && wall.separation)
-        return false;
-    normal[wall.axis] = -r[u0 + wall.axis];
-    if (wall.type == WallType::roller || (wall.type == WallType::friction && !pushes))
-        return true;
-    double keep = 0;
-    if (wall.type == WallType::friction)
-    {
-        double tt = 0;
-        for (int a = 0; a < dim; ++a)
-            if (a != wall.axis)
-                tt += r[u0 + a] * r[u0 + a];
-        keep = tt > 0 ? std::max(0.0, 1 - wall.mu * un / std::sqrt(tt)) : 0;
-    }
-    for (int a = 0; a < dim; ++a)
-        if (a != wall.axis)
-            tangential[a] = (keep - 1) * r[u0 + a];
-    return true;
-}
-} // namespace
-
 template <int dim>
 std::pair<Index, Index> WallEffect<dim>::range(const NodeRow<dim>& row) const
 {
     const auto behind = [&](Index index) { return wall_.side < 0 ? index <= wall_.plane : index >= wall_.plane; };
-    if (wall_.axis == 1)
-        return behind(row.j) ? std::pair(row.begin, row.end) : std::pair(row.end, row.end);
-    if (wall_.axis == 2)
-        return behind(row.k) ? std::pair(row.begin, row.end) : std::pair(row.end, row.end);
+    if (wall_.axis > 0)
+        return behind(wall_.axis == 1 ? row.j : row.k) ? std::pair(row.begin, row.end) : std::pair(row.end, row.end);
     if (wall_.side < 0)
         return {row.begin, std::clamp(wall_.plane + 1, row.begin, row.end)};
     return {std::clamp(wall_.plane, row.begin, row.end), row.end};
 }
 
 template <int dim>
-void WallEffect<dim>::apply(NodeRow<dim>& row) const
+void WallEffect<dim>::push(NodeRow<dim>& row) const
 {
     const auto [begin, end] = range(row);
     if (begin == end)
         return;
-    if (row.normalImpulse->empty())
-    {
-        row.normalImpulse->assign(std::size_t(row.end - row.begin), {});
-        row.frictionImpulse->assign(std::size_t(row.end - row.begin), {});
-    }
-    Vector3 normal, tangential;
+    row.walls->open(std::size_t(row.end - row.begin));
     for (Index i = begin; i < end; ++i)
     {
-        if (!row.carries(i) || !wallChange<dim>(wall_, row.node[i], normal, tangential))
+        Record& r = row.node[i];
+        const double into = wall_.side * r[row.trial + wall_.axis];
+        if (!row.carries(i) || (wall_.separation && !(into > 0)))
             continue;
-        const double m = row.node[i][0];
-        auto& rest = (*row.normalImpulse)[std::size_t(i - row.begin)];
-        auto& rub = wall_.type == WallType::friction ? (*row.frictionImpulse)[std::size_t(i - row.begin)] : rest;
+        const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)
-        {
-            row.node[i][row.trial + a] += normal[a] + tangential[a];
-            rest[a] += m * normal[a];
-            rub[a] += m * tangential[a];
-        }
-        row.node[i][row.trial + wall_.axis] = 0;
-        row.sums->contacts += wall_.type == WallType::friction;
+            if (a == wall_.axis || wall_.type == WallType::fixed)
+            {
+                row.walls->pushed[n][a] += r[row.trial + a];
+                row.walls->other[n][a] -= r[0] * r[row.trial + a];
+                r[row.trial + a] = 0;
+            }
     }
 }
 
 template <int dim>
-void WallEffect<dim>::constrain(NodeRow<dim>& row) const
+void WallEffect<dim>::rub(NodeRow<dim>& row) const
 {
+    if (wall_.type != WallType::friction || wall_.mu == 0)
+        return;
     const auto [begin, end] = range(row);
-    Vector3 normal, tangential;
     for (Index i = begin; i < end; ++i)
-        if (wallChange<dim>(wall_, row.node[i], normal, tangential))
-        {
-            for (int a = 0; a < dim; ++a)
-                row.node[i][row.trial + a] += tangential[a];
-            row.node[i][row.trial + wall_.axis] = 0;
-        }
+    {
+        const std::size_t n = std::size_t(i - row.begin);
+        const double into = wall_.side * row.walls->pushed[n][wall_.axis];
+        if (!(into > 0))
+            continue;
+        Record& r = row.node[i];
+        double square = 0;
+        for (int a = 0; a < dim; ++a)
+            if (a != wall_.axis)
+                square += r[row.trial + a] * r[row.trial + a];
+        const double keep = square > 0 ? std::max(0.0, 1 - wall_.mu * into / std::sqrt(square)) : 0;
+        for (int a = 0; a < dim; ++a)
+            if (a != wall_.axis)
+            {
+                row.walls->friction[n][a] += r[0] * (keep - 1) * r[row.trial + a];
+                r[row.trial + a] *= keep;
+            }
+        row.sums->contacts += 1;
+    }
 }
 
 template class WallEffect<2>;

@@ -23,13 +23,16 @@
 namespace mpm::nodal
 {
 template <int dim>
-class WallEffect : public NodeEffect<dim>
+class WallEffect
 {
   public:
     explicit WallEffect(const Wall& wall) : wall_(wall) {}
 
-    void apply(NodeRow<dim>& row) const override;
-    void constrain(NodeRow<dim>& row) const override;
+    /// First, for all walls: takes away what moves into the wall (fixed: all velocity) from the lanes `trial`.
+    void push(NodeRow<dim>& row) const;
+    /// Then, for all walls: friction on what is left, which no longer moves into any wall. So the order of walls in the
+    /// dictionary does not matter.
+    void rub(NodeRow<dim>& row) const;
     const Wall& wall() const { return wall_; }
 
   private:

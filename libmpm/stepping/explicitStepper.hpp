@@ -63,6 +63,7 @@ class ExplicitStepper : public Stepper
     void callLaws(Index first, constitutive::Chunk<dim>& chunk) const;
     void domainsOfChunk(Index first, SlabSums& sums);
 
+    void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
     void forEachRow(Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
@@ -70,6 +71,7 @@ class ExplicitStepper : public Stepper
     state::State& state_;
     const Scene scene_;
     std::vector<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
+    std::vector<nodal::WallEffect<dim>> walls_;
     std::vector<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;

@@ -50,7 +50,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
     for (const auto& wall : scene.walls)
-        effects_.push_back(std::make_unique<nodal::WallEffect<dim>>(wall));
+        walls_.emplace_back(wall);
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
@@ -237,7 +237,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
     const Index rows = grid_.common.rows();
 #pragma omp parallel
     {
-        std::vector<Vector3> friction, normal;
+        typename nodal::NodeRow<dim>::WallScratch walls;
 #pragma omp for schedule(static)
         for (Index r = 0; r < rows; ++r)
         {
@@ -248,13 +248,20 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
             row.node = grid_.common.row(row.j, row.k) - grid_.common.lo[0];
             row.smallestMass = smallestMass_;
             row.sums = &rowSums_[std::size_t(r)];
-            friction.clear();
-            normal.clear();
-            row.frictionImpulse = &friction;
-            row.normalImpulse = &normal;
+            walls.clear();
+            row.walls = &walls;
             body(row);
         }
     }
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
+{
+    for (const auto& wall : walls_)
+        wall.push(row);
+    for (const auto& wall : walls_)
+        wall.rub(row);
 }
 
 /// Sums the slabs, then m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
@@ -271,6 +278,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         nodal::beginRow(row);
         for (const auto& effect : effects_)
             effect->apply(row);
+        applyWalls(row);
         for (const auto& effect : effects_)
             effect->book(row);
         nodal::endRow(row, 1 / dt);
@@ -329,8 +337,9 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             for (int a = 0; a < dim; ++a)
                 row.node[i][1 + dim + a] = inverse * row.node[i][(secondProjection ? 1 + dim : 1) + a];
         }
-        for (const auto& effect : effects_)
-            effect->constrain(row);
+        nodal::NodeSums unbooked;
+        row.sums = &unbooked;
+        applyWalls(row);
     });
 }
 

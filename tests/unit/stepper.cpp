@@ -163,7 +163,7 @@ TEST_CASE("one cell thick in 3D between rollers is plane strain")
 TEST_CASE("results are bitwise the same for any number of threads")
 {
     auto scene = columnScene();
-    scene.splitting = splitting::Rule{.threshold = 1.05};
+    scene.splitting = splitting::Rule{.threshold = 1.003};
     std::map<std::int64_t, std::vector<double>> first;
     double ledger = 0;
     for (const int threads : {1, 2, 3, 7})
@@ -188,7 +188,7 @@ TEST_CASE("a run cut in two, and particles shuffled in between, is bitwise the u
     for (const auto update : updates)
     {
         auto scene = columnScene(update);
-        scene.splitting = splitting::Rule{.threshold = 1.05};
+        scene.splitting = splitting::Rule{.threshold = 1.003};
         auto whole = column();
         run(whole, scene, "cpGIMP", 113, 5e-4);
         auto first = column();
