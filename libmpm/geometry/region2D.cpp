@@ -257,7 +257,7 @@ void Region2D::forEachRow(const BoxTiling& tiling, const Row& visit) const
             const bool up = e->from[1] < e->to[1];
             const Vector3& low = up ? e->from : e->to;
             const Vector3& high = up ? e->to : e->from;
-            if (low[1] == high[1])
+            if (low[1] == high[1] && (low[1] <= y0 || low[1] >= y1))
                 continue;
             const auto at = [&](double y) {
                 return Vector3{low[0] + (high[0] - low[0]) * ((y - low[1]) / (high[1] - low[1])), y, 0};
