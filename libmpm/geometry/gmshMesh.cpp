@@ -192,9 +192,10 @@ class Reader
         model::getEntities(entities, mesh_.dim);
         closedSurface_ = ending == ".stl" && mesh_.dim == 3;
         if (entities.empty() && !closedSurface_)
-            fail(fmt::format("found a geometry of dimension {}, but gridDict asks for {}; {}", model::getDimension(), mesh_.dim,
-                             mesh_.dim == 2 ? "draw plane surfaces (Plane Surface, Physical Surface)"
-                                            : "draw volumes (Volume, Physical Volume) or give the closed surface as .stl"));
+            fail(fmt::format(
+                "found a geometry of dimension {}, but gridDict asks for {}; {}", model::getDimension(), mesh_.dim,
+                mesh_.dim == 2 ? "draw plane surfaces (Plane Surface, Physical Surface)"
+                               : "draw volumes (Volume, Physical Volume) or give the closed surface as .stl"));
         if (cad_)
         {
             gmsh::option::setNumber("Mesh.ElementOrder", 1);
@@ -224,9 +225,10 @@ class Reader
         const std::string unit = stepUnit(mesh_.file);
         gmsh::option::setString("Geometry.OCCTargetUnit", unit == "METRE" ? "M" : "MM");
         if (unit != "METRE")
-            mesh_.notes.push_back(fmt::format("the file's unit of length is {}; its coordinates{} are taken as metres (`scale` "
-                                              "multiplies them)", unit.empty() ? "not given" : unit,
-                                              unit == "MILLI METRE" || unit.empty() ? "" : " in millimetres"));
+            mesh_.notes.push_back(fmt::format(
+                "the file's unit of length is {}; its coordinates{} are taken as metres (`scale` "
+                "multiplies them)",
+                unit.empty() ? "not given" : unit, unit == "MILLI METRE" || unit.empty() ? "" : " in millimetres"));
     }
 
     struct Group
@@ -283,8 +285,9 @@ class Reader
             found.push_back({mesh_.file.stem().string(), {}});
             for (const auto& [d, tag] : entities)
                 found[0].entities.push_back(tag);
-            mesh_.notes.push_back(fmt::format("no physical group of dimension {}: everything is one region, named after the file: {}",
-                                              mesh_.dim, found[0].name));
+            mesh_.notes.push_back(
+                fmt::format("no physical group of dimension {}: everything is one region, named after the file: {}",
+                            mesh_.dim, found[0].name));
         }
         std::size_t grouped = 0;
         for (const auto& [d, tag] : entities)
@@ -384,7 +387,8 @@ class Reader
         for (const auto& [node, count] : uses)
         {
             const Vector3& p = mesh_.points[std::size_t(node)];
-            const double way = std::hypot(p[0] - a[0], p[1] - a[1], p[2] - a[2]) + std::hypot(p[0] - b[0], p[1] - b[1], p[2] - b[2]);
+            const double way =
+                std::hypot(p[0] - a[0], p[1] - a[1], p[2] - a[2]) + std::hypot(p[0] - b[0], p[1] - b[1], p[2] - b[2]);
             if (way > (1 + 1e-9) * length)
                 return;
         }
@@ -404,7 +408,8 @@ class Reader
             std::vector<double> local;
             model::mesh::getElementProperties(types[t], name, elementDim, order, count, local, primary);
             if (order > 1 || types[t] > 7)
-                fail(fmt::format("elements of type '{}' are not read; write the mesh with Mesh.ElementOrder = 1", name));
+                fail(
+                    fmt::format("elements of type '{}' are not read; write the mesh with Mesh.ElementOrder = 1", name));
             std::vector<int> n(static_cast<std::size_t>(count));
             for (std::size_t e = 0; e < tags[t].size(); ++e)
             {
@@ -470,8 +475,10 @@ class Reader
                              std::abs(mesh_.points[i][1] - mesh_.points[used[0]][1])});
         const double zLow = mesh_.points[*low][2], zHigh = mesh_.points[*high][2];
         if (!(zHigh - zLow <= 1e-9 * size))
-            fail(fmt::format("gridDict has dimension 2, but the geometry leaves its plane: z runs from {:.9g} at {} to {:.9g}; draw it in "
-                             "a plane z = constant, or set dimension 3", zLow, placeText(mesh_.points[*low], 3), zHigh));
+            fail(fmt::format("gridDict has dimension 2, but the geometry leaves its plane: z runs from {:.9g} at {} to "
+                             "{:.9g}; draw it in "
+                             "a plane z = constant, or set dimension 3",
+                             zLow, placeText(mesh_.points[*low], 3), zHigh));
         for (Vector3& p : mesh_.points)
             p[2] = 0;
     }
@@ -488,7 +495,8 @@ GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale)
     const std::vector<std::string> known = {".geo", ".step", ".stp", ".stl", ".msh"};
     const std::string ending = extensionOf(file);
     if (std::find(known.begin(), known.end(), ending) == known.end())
-        throw InputError({file.string(), 0}, fmt::format("'{}' is not an ending we read; allowed: {}", ending, joinWords(known)));
+        throw InputError({file.string(), 0},
+                         fmt::format("'{}' is not an ending we read; allowed: {}", ending, joinWords(known)));
     if (!std::ifstream(file) || !std::filesystem::is_regular_file(file))
         throw InputError({file.string(), 0}, "cannot be read");
     return Reader(file, dim).run(scale);

@@ -40,7 +40,8 @@ BoxLattice::BoxLattice(const state::GridBox& grid, const LatticeOptions& options
         const auto a = std::size_t(axis);
         boxes_[a] = axis < grid.dim ? grid.cells[a] * options.perCell : 1;
         for (Index i = 0; i <= boxes_[a]; ++i)
-            regular_[a].push_back(axis < grid.dim ? grid.origin[a] + grid.h * (double(i) / double(options.perCell)) : double(i));
+            regular_[a].push_back(axis < grid.dim ? grid.origin[a] + grid.h * (double(i) / double(options.perCell))
+                                                  : double(i));
     }
 }
 
@@ -68,7 +69,8 @@ void BoxLattice::requireInside(const geometry::Region& region) const
     const double tolerance = outside * spacing();
     const auto leaves = [&](const Vector3& v) {
         for (int axis = 0; axis < grid_.dim; ++axis)
-            if (v[std::size_t(axis)] < grid_.origin[std::size_t(axis)] - tolerance || v[std::size_t(axis)] > grid_.upper(axis) + tolerance)
+            if (v[std::size_t(axis)] < grid_.origin[std::size_t(axis)] - tolerance ||
+                v[std::size_t(axis)] > grid_.upper(axis) + tolerance)
                 return true;
         return false;
     };
@@ -83,8 +85,9 @@ void BoxLattice::requireInside(const geometry::Region& region) const
         low[a] = std::min(o, o + h * std::floor((region.lower()[a] - o) / h + outside));
         high[a] = std::max(grid_.upper(int(a)), o + h * std::ceil((region.upper()[a] - o) / h - outside));
     }
-    throw InputError(fmt::format("region '{}' leaves the grid at {}; gridDict needs at least min {} max {}", region.name(),
-                                 geometry::placeText(*first, grid_.dim), geometry::placeText(low, 3), geometry::placeText(high, 3)));
+    throw InputError(fmt::format("region '{}' leaves the grid at {}; gridDict needs at least min {} max {}",
+                                 region.name(), geometry::placeText(*first, grid_.dim), geometry::placeText(low, 3),
+                                 geometry::placeText(high, 3)));
 }
 
 double BoxLattice::plane(int axis, Index index, Index row, Index layer) const

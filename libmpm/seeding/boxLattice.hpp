@@ -7,8 +7,8 @@
 ///     jitter 0.2;             // [-], below 0.5; the boxes still tile the grid
 ///     randomSeed 1;
 ///
-/// Jittered boxes: z planes move as a whole, y planes layer by layer, x planes row by row. The shift of a plane is a hash
-/// of (randomSeed, axis, plane, row, layer), in integer arithmetic, so that every platform makes the same boxes.
+/// Jittered boxes: z planes move as a whole, y planes layer by layer, x planes row by row. The shift of a plane is a
+/// hash of (randomSeed, axis, plane, row, layer), in integer arithmetic, so that every platform makes the same boxes.
 #include "geometry/region.hpp"
 #include "state/gridBox.hpp"
 

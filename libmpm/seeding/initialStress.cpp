@@ -64,8 +64,10 @@ InitialStress readInitialStress(const dictionary::Dictionary& material, double p
         made.K0 = dict->get<double>({"K0", "horizontal over vertical stress; default nu/(1 - nu)", unit::none,
                                      Bound::nonNegative(), poissonRatio / (1 - poissonRatio)});
         if (dict->found("surfaceLevel"))
-            made.surfaceLevel = dict->get<double>({"surfaceLevel", "coordinate of the free surface along gravity; default the "
-                                                                   "region's highest point", unit::length});
+            made.surfaceLevel = dict->get<double>({"surfaceLevel",
+                                                   "coordinate of the free surface along gravity; default the "
+                                                   "region's highest point",
+                                                   unit::length});
     }
     else if (type == "uniform")
     {

@@ -6,11 +6,10 @@
 ///                                                             // surfaceLevel [m]: default the region's highest point
 ///     initialStress { type uniform; value (-1e3 -1e3 -1e3 0 0 0); }   // xx yy zz xy yz zx [Pa]
 ///
-/// K0 (METHOD Eq. 10): a wide layer at rest, sigma_v = -rho |g| d along gravity, both horizontal stresses K0 sigma_v, no
-/// shear; d is the depth below surfaceLevel, measured against gravity. rho is the material's own density: with several
-/// layers on each other give each its surfaceLevel.
-/// Errors (InputError, file:line): K0 without gravity or with gravity off the axes, a seed above surfaceLevel, yz or zx
-/// not 0 in 2D, other than six values.
+/// K0 (METHOD Eq. 10): a wide layer at rest, sigma_v = -rho |g| d along gravity, both horizontal stresses K0 sigma_v,
+/// no shear; d is the depth below surfaceLevel, measured against gravity. rho is the material's own density: with
+/// several layers on each other give each its surfaceLevel. Errors (InputError, file:line): K0 without gravity or with
+/// gravity off the axes, a seed above surfaceLevel, yz or zx not 0 in 2D, other than six values.
 #include "base/types.hpp"
 #include "dictionary/dictionary.hpp"
 
@@ -46,7 +45,8 @@ struct InitialStress
     GravityAxis gravity;
     std::array<double, 6> value{};
 
-    /// Components xx yy zz xy yz zx [Pa] at p; highest is the region's highest point along gravity's axis (a coordinate).
+    /// Components xx yy zz xy yz zx [Pa] at p; highest is the region's highest point along gravity's axis (a
+    /// coordinate).
     std::array<double, 6> at(const Vector3& p, double density, double highest) const;
     /// Is p above the surface?
     bool above(const Vector3& p, double highest) const;

@@ -110,9 +110,8 @@ class Merger
     std::size_t target(const Sliver& sliver, const std::vector<Seed>& original, int& face) const
     {
         std::array<int, 6> faces = {0, 1, 2, 3, 4, 5};
-        std::stable_sort(faces.begin(), faces.end(), [&](int a, int b) {
-            return sliver.contact[std::size_t(a)] > sliver.contact[std::size_t(b)];
-        });
+        std::stable_sort(faces.begin(), faces.end(),
+                         [&](int a, int b) { return sliver.contact[std::size_t(a)] > sliver.contact[std::size_t(b)]; });
         const double own = original[sliver.seed].volume;
         const bool dust = own < 1e-9 * boxVolume_[sliver.seed];
         for (const int f : faces)
@@ -140,9 +139,9 @@ class Merger
         }
         const RowOfSeeds& own = rows_[sliver.row];
         const Index layer = own.layer + (face >= 4 ? step : 0), row = own.row + (face < 4 ? step : 0);
-        const auto at = std::lower_bound(rows_.begin(), rows_.end(), std::pair(layer, row), [](const RowOfSeeds& r, const auto& key) {
-            return std::pair(r.layer, r.row) < key;
-        });
+        const auto at =
+            std::lower_bound(rows_.begin(), rows_.end(), std::pair(layer, row),
+                             [](const RowOfSeeds& r, const auto& key) { return std::pair(r.layer, r.row) < key; });
         if (at == rows_.end() || at->layer != layer || at->row != row)
             return none;
         // Rows of a jittered lattice are shifted against each other by less than a box.

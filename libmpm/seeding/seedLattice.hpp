@@ -1,11 +1,11 @@
 #pragma once
 /// Seeds: the parts of lattice boxes inside a region, each a particle at the part's centroid with the part's volume.
 ///
-/// Slivers, parts below sliverFraction of their box, are merged into the neighbour they share most surface with: volumes
-/// add, the centroid is the volume-weighted one. A neighbour must be no sliver itself or at least 1/sliverFraction times as
-/// large; a sliver without one stays as it is (a plate thinner than that keeps its seeds). Nothing is dropped beyond
-/// round-off, so the seeds have the region's volume and first moments: in 2D the mass is exact to 1e-12, in 3D that of the
-/// triangle surface.
+/// Slivers, parts below sliverFraction of their box, are merged into the neighbour they share most surface with:
+/// volumes add, the centroid is the volume-weighted one. A neighbour must be no sliver itself or at least
+/// 1/sliverFraction times as large; a sliver without one stays as it is (a plate thinner than that keeps its seeds).
+/// Nothing is dropped beyond round-off, so the seeds have the region's volume and first moments: in 2D the mass is
+/// exact to 1e-12, in 3D that of the triangle surface.
 ///
 /// The centroid of a part that a notch cuts may lie in the notch: kept there, because moving it would move the mass.
 ///

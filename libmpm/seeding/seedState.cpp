@@ -36,10 +36,11 @@ class Filling
             auto& [filled, last] = boxes_[layer * layer_ + row * row_ + part.box];
             filled += part.volume / part.boxVolume;
             if (filled > 1 + overfull)
-                throw InputError({body_.file.string(), 0},
-                                 fmt::format("regions '{}' and '{}' overlap at {}; a point may belong to one region only",
-                                             body_.regions[last]->name(), body_.regions[region]->name(),
-                                             geometry::placeText(part.centroid, body_.dim)));
+                throw InputError(
+                    {body_.file.string(), 0},
+                    fmt::format("regions '{}' and '{}' overlap at {}; a point may belong to one region only",
+                                body_.regions[last]->name(), body_.regions[region]->name(),
+                                geometry::placeText(part.centroid, body_.dim)));
             last = region;
         }
     }
@@ -51,7 +52,8 @@ class Filling
     std::unordered_map<Index, std::pair<double, std::size_t>> boxes_;
 };
 
-std::size_t materialOf(const geometry::Region& region, const std::vector<SeedMaterial>& materials, const SeedOptions& options)
+std::size_t materialOf(const geometry::Region& region, const std::vector<SeedMaterial>& materials,
+                       const SeedOptions& options)
 {
     std::vector<std::string> names;
     for (const SeedMaterial& m : materials)
@@ -62,10 +64,13 @@ std::size_t materialOf(const geometry::Region& region, const std::vector<SeedMat
     if (found != names.end())
         return std::size_t(found - names.begin());
     const std::string near = nearestWord(wanted, names);
-    throw InputError(options.where, fmt::format("region '{}': found no material '{}', allowed: {}{}; name one by regions {{ {} {{ material "
-                                                "{}; }} }}", region.name(), wanted, joinWords(names),
-                                                near.empty() ? "" : fmt::format(" (did you mean {}?)", near), region.name(),
-                                                near.empty() ? names.front() : near));
+    throw InputError(
+        options.where,
+        fmt::format("region '{}': found no material '{}', allowed: {}{}; name one by regions {{ {} {{ material "
+                    "{}; }} }}",
+                    region.name(), wanted, joinWords(names),
+                    near.empty() ? "" : fmt::format(" (did you mean {}?)", near), region.name(),
+                    near.empty() ? names.front() : near));
 }
 
 void appendParticles(state::State& s, const geometry::Region& region, const std::vector<Seed>& seeds,
@@ -82,9 +87,11 @@ void appendParticles(state::State& s, const geometry::Region& region, const std:
         const Seed& seed = seeds[i];
         const std::size_t at = std::size_t(first) + i;
         if (stress.above(seed.centre, highest))
-            throw InputError(fmt::format("material '{}': initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
-                                         "surfaceLevel", material.name, region.name(), geometry::placeText(seed.centre, p.dim),
-                                         stress.surfaceLevel.value_or(highest)));
+            throw InputError(fmt::format(
+                "material '{}': initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
+                "surfaceLevel",
+                material.name, region.name(), geometry::placeText(seed.centre, p.dim),
+                stress.surfaceLevel.value_or(highest)));
         const auto sigma = stress.at(seed.centre, material.density, highest);
         for (std::size_t k = 0; k < std::size_t(p.dim); ++k)
         {
@@ -109,19 +116,25 @@ SeedOptions readSeedOptions(const dictionary::Dictionary& dict)
     namespace unit = dictionary::unit;
     SeedOptions options;
     options.where = dict.where();
-    options.geometry = dict.get<std::string>({"geometry", "geometry file, from the case folder; default the only one in geometry/",
-                                              unit::none, {}, std::string{}});
-    options.scale = dict.get<double>({"scale", "metres per unit of the geometry file", unit::none, Bound::positive(), 1.0});
-    options.lattice.perCell = dict.get<Index>({"particlesPerCell", "particles in a cell along each axis", unit::none,
-                                               Bound::between(1, 100), Index(2)});
-    options.lattice.jittered = dict.choose("arrangement", "how the boxes lie",
-                                           {{"lattice", "equal boxes"}, {"jittered", "boxes with randomly moved sides"}},
-                                           "lattice") == "jittered";
+    options.geometry = dict.get<std::string>({"geometry",
+                                              "geometry file, from the case folder; default the only one in geometry/",
+                                              unit::none,
+                                              {},
+                                              std::string{}});
+    options.scale =
+        dict.get<double>({"scale", "metres per unit of the geometry file", unit::none, Bound::positive(), 1.0});
+    options.lattice.perCell = dict.get<Index>(
+        {"particlesPerCell", "particles in a cell along each axis", unit::none, Bound::between(1, 100), Index(2)});
+    options.lattice.jittered =
+        dict.choose("arrangement", "how the boxes lie",
+                    {{"lattice", "equal boxes"}, {"jittered", "boxes with randomly moved sides"}},
+                    "lattice") == "jittered";
     if (options.lattice.jittered)
     {
-        options.lattice.jitter = dict.get<double>({"jitter", "largest shift of a side, in box sides", unit::none,
-                                                   Bound::rightOpen(0, 0.5), 0.2});
-        options.lattice.randomSeed = dict.get<Index>({"randomSeed", "another seed, another arrangement", unit::none, {}, Index(1)});
+        options.lattice.jitter = dict.get<double>(
+            {"jitter", "largest shift of a side, in box sides", unit::none, Bound::rightOpen(0, 0.5), 0.2});
+        options.lattice.randomSeed =
+            dict.get<Index>({"randomSeed", "another seed, another arrangement", unit::none, {}, Index(1)});
     }
     else
         for (const char* word : {"jitter", "randomSeed"})
@@ -131,8 +144,13 @@ SeedOptions readSeedOptions(const dictionary::Dictionary& dict)
     {
         options.where = regions->where();
         for (const std::string& name : regions->dictNames())
-            options.materialOf[name] = regions->subDict(name, "a region").get<std::string>(
-                {"material", "a dictionary of materialProperties; default the region's own name", unit::none, {}, name});
+            options.materialOf[name] =
+                regions->subDict(name, "a region")
+                    .get<std::string>({"material",
+                                       "a dictionary of materialProperties; default the region's own name",
+                                       unit::none,
+                                       {},
+                                       name});
     }
     return options;
 }
@@ -150,8 +168,8 @@ Seeding seedState(const geometry::BodyGeometry& body, const state::GridBox& grid
         if (std::find(names.begin(), names.end(), name) == names.end())
         {
             const std::string near = nearestWord(name, names);
-            throw InputError(options.where, fmt::format("regions: found '{}', but {} has the regions {}{}", name, body.file.string(),
-                                                        joinWords(names, " and "),
+            throw InputError(options.where, fmt::format("regions: found '{}', but {} has the regions {}{}", name,
+                                                        body.file.string(), joinWords(names, " and "),
                                                         near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
         }
 
@@ -166,14 +184,17 @@ Seeding seedState(const geometry::BodyGeometry& body, const state::GridBox& grid
     {
         const geometry::Region& region = *body.regions[r];
         const SeedMaterial& material = materials[materialOf(region, materials, options)];
-        const RegionSeeds seeded = seedRegion(region, lattice, defaultSliverFraction,
-                                              [&](Index row, Index layer, const auto& parts) { filling.add(r, row, layer, parts); });
+        const RegionSeeds seeded =
+            seedRegion(region, lattice, defaultSliverFraction,
+                       [&](Index row, Index layer, const auto& parts) { filling.add(r, row, layer, parts); });
         if (seeded.seeds.empty())
-            throw InputError({body.file.string(), 0}, fmt::format("region '{}' is too small to hold a particle", region.name()));
+            throw InputError({body.file.string(), 0},
+                             fmt::format("region '{}' is too small to hold a particle", region.name()));
         auto used = std::find(s.materials.begin(), s.materials.end(), material.name);
         if (used == s.materials.end())
             used = s.materials.insert(used, material.name);
-        made.regions.push_back({region.name(), material.name, region.volume(), 0, Index(seeded.seeds.size()), seeded.merged});
+        made.regions.push_back(
+            {region.name(), material.name, region.volume(), 0, Index(seeded.seeds.size()), seeded.merged});
         appendParticles(s, region, seeded.seeds, material, int(used - s.materials.begin()), made.regions.back());
     }
     s.particles.padLastChunk();

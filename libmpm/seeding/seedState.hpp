@@ -13,10 +13,10 @@
 ///         soil { material soil; }
 ///     }
 ///
-/// Particles are numbered from 0 in this order: regions as in the file, then the lattice layer by layer, row by row, along
-/// x. F = I, volume = volume0, mass = density times volume. Every boundary of the geometry becomes a surface patch.
-/// Errors (InputError): a region without material or seeds, outside the grid, a name in `regions` that is no region,
-/// regions that overlap (in 3D as far as the lattice sees it: a box more than full), a seed above surfaceLevel.
+/// Particles are numbered from 0 in this order: regions as in the file, then the lattice layer by layer, row by row,
+/// along x. F = I, volume = volume0, mass = density times volume. Every boundary of the geometry becomes a surface
+/// patch. Errors (InputError): a region without material or seeds, outside the grid, a name in `regions` that is no
+/// region, regions that overlap (in 3D as far as the lattice sees it: a box more than full), a seed above surfaceLevel.
 #include "geometry/bodyGeometry.hpp"
 #include "seeding/boxLattice.hpp"
 #include "seeding/seedMaterials.hpp"

@@ -17,9 +17,9 @@
 using namespace mpm;
 using namespace mpm::seeding;
 using namespace mpm::test;
+using Catch::Matchers::Contains;
 using geometry::Region2D;
 using geometry::Region3D;
-using Catch::Matchers::Contains;
 
 namespace
 {
@@ -121,7 +121,8 @@ TEST_CASE("any polygon, with holes and islands, keeps area and centroid to round
     {
         // A large star with two star holes and an island in the first one.
         const Vector3 c{0.13 * trial, -0.07 * trial, 0};
-        const Region2D region("star", {star(random, c, 3, 5, 9 + trial), star(random, {c[0] - 1.2, c[1], 0}, 0.5, 1.1, 5 + trial),
+        const Region2D region("star", {star(random, c, 3, 5, 9 + trial),
+                                       star(random, {c[0] - 1.2, c[1], 0}, 0.5, 1.1, 5 + trial),
                                        star(random, {c[0] + 1.2, c[1], 0}, 0.3, 1, 3 + trial % 3),
                                        star(random, {c[0] - 1.2, c[1], 0}, 0.1, 0.3, 7)});
         const auto grid = gridBox(2, {-9, -9, 0}, 0.5, {40, 36, 1});
@@ -165,13 +166,15 @@ TEST_CASE("jittered boxes tile, are deterministic and follow the seed of the gen
     const auto first = seedsOf(plate, grid, {2, true, 0.3, 1});
     CHECK(first.size() == 16 * 12);
     CHECK(errorsOf(first, plate).volume < 1e-13);
-    const auto [least, most] = std::minmax_element(first.begin(), first.end(), [](auto& a, auto& b) { return a.volume < b.volume; });
+    const auto [least, most] =
+        std::minmax_element(first.begin(), first.end(), [](auto& a, auto& b) { return a.volume < b.volume; });
     CHECK(most->volume / least->volume > 2);
     CHECK(least->volume >= 0.4 * 0.4 / 16);
     const auto again = seedsOf(plate, grid, {2, true, 0.3, 1});
     const auto other = seedsOf(plate, grid, {2, true, 0.3, 2});
     CHECK(std::equal(first.begin(), first.end(), again.begin(), [](auto& a, auto& b) { return a.centre == b.centre; }));
-    CHECK_FALSE(std::equal(first.begin(), first.end(), other.begin(), [](auto& a, auto& b) { return a.centre == b.centre; }));
+    CHECK_FALSE(
+        std::equal(first.begin(), first.end(), other.begin(), [](auto& a, auto& b) { return a.centre == b.centre; }));
     // The same numbers on every platform; this one was worked out apart, in Python's integers.
     CHECK(first[0].centre[0] == Approx(0.10413058379329374).epsilon(1e-15));
 }
@@ -195,7 +198,8 @@ TEST_CASE("slivers go to the neighbour they touch, thin bodies stay")
     CHECK(thin[0].length[0] == Approx(1));
     CHECK(thin[0].length[1] == Approx(0.04));
 
-    // Two bodies with a slit of 0.01 between them: the sliver right of the plane goes right although it is nearer to the left.
+    // Two bodies with a slit of 0.01 between them: the sliver right of the plane goes right although it is nearer to
+    // the left.
     const Region2D slit("slit", {{{1, 1}, {2.94, 1}, {2.94, 2}, {1, 2}}, {{2.95, 1}, {5, 1}, {5, 2}, {2.95, 2}}});
     const auto parts = seedsOf(slit, grid, {1});
     CHECK(errorsOf(parts, slit).volume < 1e-14);
@@ -247,9 +251,11 @@ TEST_CASE("what leaves the grid is refused with its name, place and the box it n
 
 TEST_CASE("initial stress of a layer at rest")
 {
-    const auto dict = dictionary::Dictionary::fromText("soil { initialStress { type K0; } } deep { initialStress { type K0; K0 0.5; "
-                                                       "surfaceLevel 10; } } still { initialStress { type uniform; value (1 2 3 4 0 0); } }"
-                                                       " wrong { initialStress { type uniform; value (1 2 3 4 5 0); } } bare {}", "materialProperties");
+    const auto dict = dictionary::Dictionary::fromText(
+        "soil { initialStress { type K0; } } deep { initialStress { type K0; K0 0.5; "
+        "surfaceLevel 10; } } still { initialStress { type uniform; value (1 2 3 4 0 0); } }"
+        " wrong { initialStress { type uniform; value (1 2 3 4 5 0); } } bare {}",
+        "materialProperties");
     const Vector3 g{0, -9.8, 0};
     const auto soil = readInitialStress(dict.subDict("soil"), 0.42, g, 2);
     const auto stress = soil.at({1, 3, 0}, 1000, 8);
@@ -265,7 +271,8 @@ TEST_CASE("initial stress of a layer at rest")
     CHECK(readInitialStress(dict.subDict("still"), 0.3, {}, 2).at({}, 1, 1) == std::array<double, 6>{1, 2, 3, 4, 0, 0});
     CHECK(readInitialStress(dict.subDict("bare"), 0.3, {}, 2).at({}, 1, 1) == std::array<double, 6>{});
     for (const Vector3& bad : {Vector3{0, 0, 0}, Vector3{1, -9, 0}, Vector3{0, 0, -9.8}})
-        CHECK_THROWS_WITH(readInitialStress(dict.subDict("soil"), 0.42, bad, 2), Contains("materialProperties:1") && Contains("gravity"));
+        CHECK_THROWS_WITH(readInitialStress(dict.subDict("soil"), 0.42, bad, 2),
+                          Contains("materialProperties:1") && Contains("gravity"));
     CHECK(readInitialStress(dict.subDict("soil"), 0.42, {0, 0, -9.8}, 3).gravity.axis == 2);
     CHECK_THROWS_WITH(readInitialStress(dict.subDict("wrong"), 0.3, {}, 2), Contains("yz 5"));
 }
@@ -287,7 +294,8 @@ TEST_CASE("patches keep the boundary's length, area and orientation in pieces no
     double area = 0, moment = 0;
     for (std::size_t i = 0; i < std::size_t(triangles.size()); ++i)
     {
-        const double ux = triangles.edges[0][i], uy = triangles.edges[1][i], vx = triangles.edges[3][i], vy = triangles.edges[4][i];
+        const double ux = triangles.edges[0][i], uy = triangles.edges[1][i], vx = triangles.edges[3][i],
+                     vy = triangles.edges[4][i];
         const double normal = (ux * vy - uy * vx) / 2;
         CHECK(normal > 0);
         CHECK(std::max({std::hypot(ux, uy), std::hypot(vx, vy), std::hypot(ux - vx, uy - vy)}) <= 0.5 * (1 + 1e-9));
@@ -341,11 +349,13 @@ TEST_CASE("a state: order, ids, masses, two materials, patches")
     CHECK(made.state.patches[0].edges[0][0] == 0.25); // outward normal (0, -0.25)
 
     options.materialOf.clear();
-    CHECK_THROWS_WITH(seedState(body, grid, materials, options), Contains("'top soil'") && Contains("spare, sand or rock"));
+    CHECK_THROWS_WITH(seedState(body, grid, materials, options),
+                      Contains("'top soil'") && Contains("spare, sand or rock"));
     options.materialOf = {{"rock", "rook"}};
     CHECK_THROWS_WITH(seedState(body, grid, materials, options), Contains("'rook'") && Contains("did you mean rock"));
     options.materialOf = {{"topsoil", "sand"}, {"top soil", "sand"}};
-    CHECK_THROWS_WITH(seedState(body, grid, materials, options), Contains("'topsoil'") && Contains("did you mean top soil"));
+    CHECK_THROWS_WITH(seedState(body, grid, materials, options),
+                      Contains("'topsoil'") && Contains("did you mean top soil"));
     options.materialOf = {{"top soil", "sand"}};
     auto low = materials;
     low[1].initialStress.surfaceLevel = 2.9;
@@ -356,7 +366,9 @@ TEST_CASE("a state: order, ids, masses, two materials, patches")
 
 TEST_CASE("3D regions that overlap are refused by name")
 {
-    const auto region = [](const std::string& name, const Surface3& s) { return std::make_unique<Region3D>(name, s.points, s.triangles); };
+    const auto region = [](const std::string& name, const Surface3& s) {
+        return std::make_unique<Region3D>(name, s.points, s.triangles);
+    };
     const auto grid = gridBox(3, {0, 0, 0}, 0.5, {8, 8, 8});
     const std::vector<SeedMaterial> materials = {materialOf("a", 1), materialOf("b", 1)};
     std::vector<std::unique_ptr<geometry::Region>> regions;
@@ -371,8 +383,10 @@ TEST_CASE("3D regions that overlap are refused by name")
 
 TEST_CASE("the dictionary of seedParticles")
 {
-    const auto dict = dictionary::Dictionary::fromText("geometry \"geometry/a.geo\"; particlesPerCell 3; arrangement jittered; jitter 0.1; "
-                                                       "regions { soil { material sand; } rock {} }", "seedParticlesDict");
+    const auto dict = dictionary::Dictionary::fromText(
+        "geometry \"geometry/a.geo\"; particlesPerCell 3; arrangement jittered; jitter 0.1; "
+        "regions { soil { material sand; } rock {} }",
+        "seedParticlesDict");
     const SeedOptions options = readSeedOptions(dict);
     dict.rejectUnread();
     CHECK(options.geometry == "geometry/a.geo");
@@ -392,7 +406,9 @@ TEST_CASE("the dictionary of seedParticles")
 
 TEST_CASE("the grid's dictionary")
 {
-    const auto grid = [](const std::string& text) { return cases::gridFromDict(dictionary::Dictionary::fromText(text, "gridDict")); };
+    const auto grid = [](const std::string& text) {
+        return cases::gridFromDict(dictionary::Dictionary::fromText(text, "gridDict"));
+    };
     const auto column = grid("dimension 2; min (-12 0 0); max (16 12 0); cellSize 0.2666666666666667;");
     CHECK(column.cells == std::array<Index, 3>{105, 45, 1});
     CHECK(column.h == 28.0 / 105);
@@ -400,7 +416,8 @@ TEST_CASE("the grid's dictionary")
     const auto rounded = grid("dimension 3; min (0 0 0); max (1 2 3); cellSize 0.3333333;");
     CHECK(rounded.cells == std::array<Index, 3>{3, 6, 9});
     CHECK(rounded.h == 1.0 / 3);
-    CHECK_THROWS_WITH(grid("dimension 2; min (0 0 0); max (16.1 12 0); cellSize 0.5;"), Contains("gridDict:1") && Contains("(16 12 0)"));
+    CHECK_THROWS_WITH(grid("dimension 2; min (0 0 0); max (16.1 12 0); cellSize 0.5;"),
+                      Contains("gridDict:1") && Contains("(16 12 0)"));
     CHECK_THROWS_WITH(grid("dimension 4; min (0 0 0); max (1 1 1); cellSize 0.5;"), Contains("dimension"));
     CHECK_THROWS_WITH(grid("dimension 2; min (0 0 0); max (1 -1 0); cellSize 0.5;"), Contains("y > 0"));
     CHECK_THROWS_WITH(grid("dimension 2; min (0 0 0); max (1 1 2); cellSize 0.5;"), Contains("z = 0 in 2D"));
@@ -415,7 +432,8 @@ TEST_CASE("seeding takes linear time", "[.][speed]")
     const auto time = [](const char* what, auto&& work) {
         const auto start = std::chrono::steady_clock::now();
         const std::size_t seeds = work();
-        WARN(what << ": " << seeds << " seeds in " << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s");
+        WARN(what << ": " << seeds << " seeds in "
+                  << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s");
     };
     time("2D lattice", [&] { return seedsOf(plate, gridBox(2, {0, 0, 0}, 0.02, {500, 500, 1}), {2}).size(); });
     time("2D jittered", [&] { return seedsOf(plate, gridBox(2, {0, 0, 0}, 0.02, {500, 500, 1}), {2, true}).size(); });
