@@ -45,8 +45,12 @@ std::string report(const geometry::BodyGeometry& body, const Seeding& seeded,
                    const std::vector<SeedMaterial>& materials, const SeedOptions& options)
 {
     const bool flat = body.dim == 2;
-    std::string text = line("geometry", fmt::format("{}, {} regions, {} boundaries", body.file.filename().string(),
-                                                    body.regions.size(), body.boundaries.size()));
+    const auto count = [](std::size_t n, const char* one, const char* many) {
+        return n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many);
+    };
+    std::string text = line("geometry", fmt::format("{}, {}, {}", body.file.filename().string(),
+                                                    count(body.regions.size(), "region", "regions"),
+                                                    count(body.boundaries.size(), "boundary", "boundaries")));
     for (const std::string& note : body.notes)
         text += line("note", note);
     text += line("grid", latticeText(seeded.state, options.lattice));

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies, and the files that describe them, for tests of geometry and seeding.
 #include "geometry/simplex.hpp"
+#include "state/gridBox.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,16 @@
 
 namespace mpm::test
 {
+inline state::GridBox gridBox(int dim, const Vector3& origin, double h, std::array<Index, 3> cells)
+{
+    state::GridBox grid;
+    grid.dim = dim;
+    grid.origin = origin;
+    grid.h = h;
+    grid.cells = cells;
+    return grid;
+}
+
 struct Surface3
 {
     std::vector<Vector3> points;

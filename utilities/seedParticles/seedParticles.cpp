@@ -18,8 +18,9 @@ namespace
 {
 void refuseOldState(const cases::CaseDirectory& here, bool overwrite)
 {
-    if (std::filesystem::exists(here.statePath("0")) && !overwrite)
-        throw InputError({here.statePath("0").string()}, "holds a state already; -overwrite replaces it");
+    const auto state = here.statePath("0").lexically_normal();
+    if (std::filesystem::exists(state) && !overwrite)
+        throw InputError({state.string()}, "holds a state already; -overwrite replaces it");
     if (std::filesystem::exists(here.timePath("0")) && !std::filesystem::is_directory(here.timePath("0")))
         throw InputError({here.timePath("0").string()}, "is no folder; the state would go into it");
     for (const auto& time : here.times())
