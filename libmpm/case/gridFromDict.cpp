@@ -3,8 +3,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace mpm::cases {
-namespace {
+namespace mpm::cases
+{
+namespace
+{
 using dictionary::Bound;
 namespace unit = dictionary::unit;
 
@@ -36,15 +38,17 @@ state::GridBox gridFromDict(const dictionary::Dictionary& dict)
     {
         const double cells = (high[k] - low[k]) / h;
         if (!(cells > 0) || !(cells < mostCells))
-            dict.fail("max", text(high), fmt::format("{} > {:.10g} of min, fewer than {:g} cells of {:.10g} away", axisNames[k], low[k],
-                                                     mostCells, h));
+            dict.fail("max", text(high),
+                      fmt::format("{} > {:.10g} of min, fewer than {:g} cells of {:.10g} away", axisNames[k], low[k],
+                                  mostCells, h));
         grid.cells[k] = std::max<Index>(1, std::llround(cells));
         fits = fits && std::abs(cells - double(grid.cells[k])) <= wholeCells;
         fitting[k] = low[k] + double(grid.cells[k]) * h;
     }
     if (!fits)
-        dict.fail("max", text(high), fmt::format("a whole number of cells of cellSize {:.10g} from min {}; the nearest is {}", h, text(low),
-                                                 text(fitting)));
+        dict.fail("max", text(high),
+                  fmt::format("a whole number of cells of cellSize {:.10g} from min {}; the nearest is {}", h,
+                              text(low), text(fitting)));
     grid.h = (high[0] - low[0]) / double(grid.cells[0]);
     return grid;
 }

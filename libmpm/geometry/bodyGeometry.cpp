@@ -47,14 +47,16 @@ std::unique_ptr<Region> makeRegion2D(const GmshMesh& mesh, const RawRegion& raw,
         sum += loops.region->volume();
         for (std::size_t l = 0; raw.connected && loops.region->islands() > 1 && l < loops.region->loops(); ++l)
             if (l != loops.region->largest() && loops.region->island(l))
-                throw InputError(fmt::format("region '{}': a surface has a loop at {} that is not inside its outer loop; holes "
-                                             "must lie inside, separate areas need surfaces of their own", raw.name,
-                                             placeText(loops.region->loop(l)[0], 2)));
+                throw InputError(
+                    fmt::format("region '{}': a surface has a loop at {} that is not inside its outer loop; holes "
+                                "must lie inside, separate areas need surfaces of their own",
+                                raw.name, placeText(loops.region->loop(l)[0], 2)));
     }
     Loops whole = makeLoops(mesh, raw.name, oddElements(raw.parts));
     if (std::abs(sum - whole.region->volume()) > 1e-9 * sum)
-        throw InputError(fmt::format("region '{}': its surfaces overlap: their areas add up to {:.9g}, together they cover {:.9g}",
-                                     raw.name, sum, whole.region->volume()));
+        throw InputError(
+            fmt::format("region '{}': its surfaces overlap: their areas add up to {:.9g}, together they cover {:.9g}",
+                        raw.name, sum, whole.region->volume()));
     for (std::size_t l = 0; l < whole.indices.size(); ++l)
     {
         const auto& loop = whole.indices[l];
@@ -77,8 +79,9 @@ std::unique_ptr<Region> makeRegion3D(const GmshMesh& mesh, const RawRegion& raw,
             sum += Region3D(raw.name, mesh.points, oddElements({part})).volume();
     auto region = std::make_unique<Region3D>(raw.name, mesh.points, oddElements(raw.parts));
     if (raw.parts.size() > 1 && std::abs(sum - region->volume()) > 1e-9 * sum)
-        throw InputError(fmt::format("region '{}': its volumes overlap: they add up to {:.9g}, together they fill {:.9g}",
-                                     raw.name, sum, region->volume()));
+        throw InputError(
+            fmt::format("region '{}': its volumes overlap: they add up to {:.9g}, together they fill {:.9g}", raw.name,
+                        sum, region->volume()));
     for (const Simplex& t : region->triangles())
         surface.emplace(unoriented(t), t);
     return region;
@@ -106,8 +109,8 @@ Boundary makeBoundary(const GmshMesh& mesh, const RawBoundary& raw, const std::v
                 break;
             }
     if (const std::size_t lost = raw.elements.size() - boundary.elements.size(); lost > 0)
-        notes.push_back(fmt::format("boundary '{}': {} of its {} pieces bound no region and are left out", raw.name, lost,
-                                    raw.elements.size()));
+        notes.push_back(fmt::format("boundary '{}': {} of its {} pieces bound no region and are left out", raw.name,
+                                    lost, raw.elements.size()));
     return boundary;
 }
 
@@ -116,12 +119,16 @@ void checkOverlaps(const BodyGeometry& body)
     for (std::size_t b = 1; b < body.regions.size(); ++b)
         for (std::size_t a = 0; a < b; ++a)
         {
-            const auto &first = static_cast<const Region2D&>(*body.regions[a]), &second = static_cast<const Region2D&>(*body.regions[b]);
+            const auto &first = static_cast<const Region2D&>(*body.regions[a]),
+                       &second = static_cast<const Region2D&>(*body.regions[b]);
             Vector3 place{};
             const double area = overlap(first, second, place);
             if (area > 1e-9 * std::min(first.volume(), second.volume()))
-                throw InputError({body.file.string(), 0}, fmt::format("regions '{}' and '{}' overlap in {:.6g} m2 at {}; a point may belong to one "
-                                                                      "region only", first.name(), second.name(), area, placeText(place, 2)));
+                throw InputError(
+                    {body.file.string(), 0},
+                    fmt::format("regions '{}' and '{}' overlap in {:.6g} m2 at {}; a point may belong to one "
+                                "region only",
+                                first.name(), second.name(), area, placeText(place, 2)));
         }
 }
 } // namespace
@@ -133,8 +140,9 @@ double Boundary::area() const
     {
         const auto &e = b.edges[0], &f = b.edges[1];
         const bool segment = f == Vector3{};
-        sum += segment ? std::hypot(e[0], e[1])
-                       : 0.5 * std::hypot(e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]);
+        sum += segment
+                   ? std::hypot(e[0], e[1])
+                   : 0.5 * std::hypot(e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]);
     }
     return sum;
 }
@@ -151,7 +159,8 @@ BodyGeometry readGeometry(const std::filesystem::path& file, int dim, double sca
         try
         {
             surfaces.emplace_back();
-            body.regions.push_back(dim == 2 ? makeRegion2D(mesh, raw, surfaces.back()) : makeRegion3D(mesh, raw, surfaces.back()));
+            body.regions.push_back(dim == 2 ? makeRegion2D(mesh, raw, surfaces.back())
+                                            : makeRegion3D(mesh, raw, surfaces.back()));
         }
         catch (const InputError& error)
         {

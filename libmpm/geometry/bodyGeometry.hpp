@@ -1,9 +1,9 @@
 #pragma once
 /// The body a case starts from: its checked regions and its named boundaries, facing outward.
 ///
-/// Errors (InputError) name file, region and place: everything gmshMesh.hpp, region2D.hpp and region3D.hpp refuse, a hole
-/// outside its surface, parts of a region that overlap, two regions that overlap in 2D (the area is exact; in 3D the
-/// seeding sees overlaps).
+/// Errors (InputError) name file, region and place: everything gmshMesh.hpp, region2D.hpp and region3D.hpp refuse, a
+/// hole outside its surface, parts of a region that overlap, two regions that overlap in 2D (the area is exact; in 3D
+/// the seeding sees overlaps).
 #include "geometry/region.hpp"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
-/// A tiling of the grid by axis-aligned boxes, row by row: z planes cut layers, y planes cut a layer into rows, x planes
-/// cut a row into boxes. Rows need not share their planes (jittered lattices), yet the boxes never overlap nor leave gaps.
-/// In 2D there is one layer.
+/// A tiling of the grid by axis-aligned boxes, row by row: z planes cut layers, y planes cut a layer into rows, x
+/// planes cut a row into boxes. Rows need not share their planes (jittered lattices), yet the boxes never overlap nor
+/// leave gaps. In 2D there is one layer.
 #include "base/types.hpp"
 
 #include <vector>

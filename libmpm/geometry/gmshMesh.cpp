@@ -1,18 +1,16 @@
 #include "geometry/gmshMesh.hpp"
 
 #include "base/error.hpp"
-#include "geometry/region.hpp"
+#include "geometry/elementSides.hpp"
+#include "geometry/flatten.hpp"
+#include "geometry/geometryFile.hpp"
+#include "geometry/silence.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmsh.h>
-#include <iostream>
-#include <regex>
-#include <unistd.h>
 #include <unordered_map>
 
 namespace mpm::geometry
@@ -20,44 +18,6 @@ namespace mpm::geometry
 namespace
 {
 namespace model = gmsh::model;
-
-/// OpenCASCADE prints whatever gmsh is told, so the terminal is taken away meanwhile.
-class Silence
-{
-  public:
-    Silence()
-    {
-        flush();
-        const int nowhere = ::open("/dev/null", O_WRONLY);
-        for (int fd = 1; fd <= 2; ++fd)
-        {
-            saved_[fd - 1] = ::dup(fd);
-            ::dup2(nowhere, fd);
-        }
-        ::close(nowhere);
-    }
-    ~Silence()
-    {
-        flush();
-        for (int fd = 1; fd <= 2; ++fd)
-            if (saved_[fd - 1] >= 0)
-            {
-                ::dup2(saved_[fd - 1], fd);
-                ::close(saved_[fd - 1]);
-            }
-    }
-    Silence(const Silence&) = delete;
-    Silence& operator=(const Silence&) = delete;
-
-  private:
-    static void flush()
-    {
-        std::cout.flush();
-        std::cerr.flush();
-        std::fflush(nullptr);
-    }
-    int saved_[2] = {-1, -1};
-};
 
 class Session
 {
@@ -129,34 +89,16 @@ void guarded(const std::filesystem::path& file, Action&& action)
         throw InputError({file.string(), 0}, "gmsh: " + joinWords(errors, "; "));
 }
 
-std::string extensionOf(const std::filesystem::path& file)
-{
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return ending;
-}
-
-/// The unit of length a STEP file declares: METRE, MILLI METRE, INCH ..., empty if none is found.
-std::string stepUnit(const std::filesystem::path& file)
-{
-    std::ifstream in(file);
-    const std::string text((std::istreambuf_iterator<char>(in)), {});
-    const auto at = text.find("LENGTH_UNIT()");
-    if (at == std::string::npos)
-        return "";
-    const std::string around = text.substr(at > 120 ? at - 120 : 0, 300);
-    std::smatch match;
-    if (std::regex_search(around, match, std::regex("CONVERSION_BASED_UNIT\\s*\\(\\s*'([^']*)'")))
-        return match[1];
-    if (std::regex_search(around, match, std::regex("SI_UNIT\\s*\\(\\s*(\\$|\\.(\\w+)\\.)\\s*,\\s*\\.METRE\\.")))
-        return match[2].matched ? match[2].str() + " METRE" : "METRE";
-    return "";
-}
-
 class Reader
 {
   public:
-    Reader(const std::filesystem::path& file, int dim) : cad_(false) { mesh_.file = file, mesh_.dim = dim; }
+    Reader(const std::filesystem::path& file, int dim, const std::string& ending)
+        : cad_(ending != ".stl" && ending != ".msh"), labelled_(ending == ".step" || ending == ".stp"),
+          closedSurface_(ending == ".stl" && dim == 3), isScript_(ending == ".geo")
+    {
+        mesh_.file = file;
+        mesh_.dim = dim;
+    }
 
     GmshMesh run(double scale)
     {
@@ -168,7 +110,7 @@ class Reader
         });
         for (const std::string& warning : logged("Warning"))
             mesh_.notes.push_back("gmsh warns: " + warning);
-        flatten();
+        flatten(mesh_);
         for (Vector3& p : mesh_.points)
             for (double& x : p)
                 x *= scale;
@@ -180,21 +122,18 @@ class Reader
 
     void open()
     {
-        const std::string ending = extensionOf(mesh_.file);
-        cad_ = ending != ".stl" && ending != ".msh";
-        labelled_ = ending == ".step" || ending == ".stp";
         if (labelled_)
             readUnit();
-        if (ending == ".geo" && !endsWithNewline())
+        if (isScript_ && !endsWithNewline(mesh_.file))
             fail("its last line has no line end, so gmsh would not read it; add one");
         guarded(mesh_.file, [&] { gmsh::open(mesh_.file.string()); });
         gmsh::vectorpair entities;
         model::getEntities(entities, mesh_.dim);
-        closedSurface_ = ending == ".stl" && mesh_.dim == 3;
         if (entities.empty() && !closedSurface_)
-            fail(fmt::format("found a geometry of dimension {}, but gridDict asks for {}; {}", model::getDimension(), mesh_.dim,
-                             mesh_.dim == 2 ? "draw plane surfaces (Plane Surface, Physical Surface)"
-                                            : "draw volumes (Volume, Physical Volume) or give the closed surface as .stl"));
+            fail(fmt::format(
+                "found a geometry of dimension {}, but gridDict asks for {}; {}", model::getDimension(), mesh_.dim,
+                mesh_.dim == 2 ? "draw plane surfaces (Plane Surface, Physical Surface)"
+                               : "draw volumes (Volume, Physical Volume) or give the closed surface as .stl"));
         if (cad_)
         {
             gmsh::option::setNumber("Mesh.ElementOrder", 1);
@@ -210,23 +149,15 @@ class Reader
         }
     }
 
-    bool endsWithNewline() const
-    {
-        std::ifstream in(mesh_.file, std::ios::binary | std::ios::ate);
-        char last = '\n';
-        if (in.tellg() > 0)
-            in.seekg(-1, std::ios::end).get(last);
-        return last == '\n';
-    }
-
     void readUnit()
     {
         const std::string unit = stepUnit(mesh_.file);
         gmsh::option::setString("Geometry.OCCTargetUnit", unit == "METRE" ? "M" : "MM");
         if (unit != "METRE")
-            mesh_.notes.push_back(fmt::format("the file's unit of length is {}; its coordinates{} are taken as metres (`scale` "
-                                              "multiplies them)", unit.empty() ? "not given" : unit,
-                                              unit == "MILLI METRE" || unit.empty() ? "" : " in millimetres"));
+            mesh_.notes.push_back(fmt::format(
+                "the file's unit of length is {}; its coordinates{} are taken as metres (`scale` "
+                "multiplies them)",
+                unit.empty() ? "not given" : unit, unit == "MILLI METRE" || unit.empty() ? "" : " in millimetres"));
     }
 
     struct Group
@@ -283,8 +214,9 @@ class Reader
             found.push_back({mesh_.file.stem().string(), {}});
             for (const auto& [d, tag] : entities)
                 found[0].entities.push_back(tag);
-            mesh_.notes.push_back(fmt::format("no physical group of dimension {}: everything is one region, named after the file: {}",
-                                              mesh_.dim, found[0].name));
+            mesh_.notes.push_back(
+                fmt::format("no physical group of dimension {}: everything is one region, named after the file: {}",
+                            mesh_.dim, found[0].name));
         }
         std::size_t grouped = 0;
         for (const auto& [d, tag] : entities)
@@ -384,7 +316,8 @@ class Reader
         for (const auto& [node, count] : uses)
         {
             const Vector3& p = mesh_.points[std::size_t(node)];
-            const double way = std::hypot(p[0] - a[0], p[1] - a[1], p[2] - a[2]) + std::hypot(p[0] - b[0], p[1] - b[1], p[2] - b[2]);
+            const double way =
+                std::hypot(p[0] - a[0], p[1] - a[1], p[2] - a[2]) + std::hypot(p[0] - b[0], p[1] - b[1], p[2] - b[2]);
             if (way > (1 + 1e-9) * length)
                 return;
         }
@@ -404,7 +337,8 @@ class Reader
             std::vector<double> local;
             model::mesh::getElementProperties(types[t], name, elementDim, order, count, local, primary);
             if (order > 1 || types[t] > 7)
-                fail(fmt::format("elements of type '{}' are not read; write the mesh with Mesh.ElementOrder = 1", name));
+                fail(
+                    fmt::format("elements of type '{}' are not read; write the mesh with Mesh.ElementOrder = 1", name));
             std::vector<int> n(static_cast<std::size_t>(count));
             for (std::size_t e = 0; e < tags[t].size(); ++e)
             {
@@ -415,69 +349,8 @@ class Reader
         }
     }
 
-    /// A triangle as it is; a quadrilateral cut at its smallest index, so that neighbours cut it alike.
-    static void addFace(const std::vector<int>& n, std::vector<Simplex>& out)
-    {
-        if (n.size() == 3)
-        {
-            out.push_back({n[0], n[1], n[2]});
-            return;
-        }
-        const std::size_t s = std::size_t(std::min_element(n.begin(), n.end()) - n.begin());
-        out.push_back({n[s], n[(s + 1) % 4], n[(s + 2) % 4]});
-        out.push_back({n[s], n[(s + 2) % 4], n[(s + 3) % 4]});
-    }
-
-    /// gmsh's element types: 2 triangle, 3 quadrangle, 4 tetrahedron, 5 hexahedron, 6 prism, 7 pyramid.
-    static void addSides(int type, const std::vector<int>& n, std::vector<Simplex>& out)
-    {
-        static const std::map<int, std::vector<std::vector<std::size_t>>> faces = {
-            {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
-            {5, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
-            {6, {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
-            {7, {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}}};
-        if (type == 2 || type == 3)
-        {
-            for (std::size_t k = 0; k < n.size(); ++k)
-                out.push_back({n[k], n[(k + 1) % n.size()], -1});
-            return;
-        }
-        for (const auto& face : faces.at(type))
-        {
-            std::vector<int> corners;
-            for (const std::size_t k : face)
-                corners.push_back(n[k]);
-            addFace(corners, out);
-        }
-    }
-
-    /// 2D: one z for all, then none.
-    void flatten()
-    {
-        if (mesh_.dim == 3)
-            return;
-        std::vector<std::size_t> used;
-        for (const RawRegion& region : mesh_.regions)
-            for (const auto& part : region.parts)
-                for (const Simplex& s : part)
-                    used.push_back(std::size_t(s[0]));
-        const auto [low, high] = std::minmax_element(used.begin(), used.end(), [&](std::size_t a, std::size_t b) {
-            return mesh_.points[a][2] < mesh_.points[b][2];
-        });
-        double size = 0;
-        for (const std::size_t i : used)
-            size = std::max({size, std::abs(mesh_.points[i][0] - mesh_.points[used[0]][0]),
-                             std::abs(mesh_.points[i][1] - mesh_.points[used[0]][1])});
-        const double zLow = mesh_.points[*low][2], zHigh = mesh_.points[*high][2];
-        if (!(zHigh - zLow <= 1e-9 * size))
-            fail(fmt::format("gridDict has dimension 2, but the geometry leaves its plane: z runs from {:.9g} at {} to {:.9g}; draw it in "
-                             "a plane z = constant, or set dimension 3", zLow, placeText(mesh_.points[*low], 3), zHigh));
-        for (Vector3& p : mesh_.points)
-            p[2] = 0;
-    }
-
     GmshMesh mesh_;
-    bool cad_ = false, labelled_ = false, closedSurface_ = false;
+    bool cad_, labelled_, closedSurface_, isScript_;
     std::unordered_map<std::size_t, int> index_;
     std::map<std::pair<int, int>, std::vector<Simplex>> elements_;
 };
@@ -485,12 +358,6 @@ class Reader
 
 GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale)
 {
-    const std::vector<std::string> known = {".geo", ".step", ".stp", ".stl", ".msh"};
-    const std::string ending = extensionOf(file);
-    if (std::find(known.begin(), known.end(), ending) == known.end())
-        throw InputError({file.string(), 0}, fmt::format("'{}' is not an ending we read; allowed: {}", ending, joinWords(known)));
-    if (!std::ifstream(file) || !std::filesystem::is_regular_file(file))
-        throw InputError({file.string(), 0}, "cannot be read");
-    return Reader(file, dim).run(scale);
+    return Reader(file, dim, checkedEnding(file)).run(scale);
 }
 } // namespace mpm::geometry

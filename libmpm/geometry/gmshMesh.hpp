@@ -6,17 +6,17 @@
 ///     .stl           a triangle surface; all facets are one region named after the file
 ///     .msh           gmsh's mesh format 2.2 and 4.1, elements of first order
 ///
-/// Physical groups of the asked dimension are regions, those of one dimension less are boundaries. A file without groups
-/// of the asked dimension is one region named after the file. Straight curves come out as one segment between their end
-/// points as written in the file, curved ones as chords: `Mesh.MeshSize...` of the file rules them, and at least 180 (2D)
-/// or 90 (3D) chords make a full turn unless the .geo file sets Mesh.MeshSizeFromCurvature itself.
+/// Physical groups of the asked dimension are regions, those of one dimension less are boundaries. A file without
+/// groups of the asked dimension is one region named after the file. Straight curves come out as one segment between
+/// their end points as written in the file, curved ones as chords: `Mesh.MeshSize...` of the file rules them, and at
+/// least 180 (2D) or 90 (3D) chords make a full turn unless the .geo file sets Mesh.MeshSizeFromCurvature itself.
 ///
 /// Lengths are metres. Coordinates of a STEP file are taken as written, whatever its unit; `scale` multiplies all.
-/// Errors (InputError, with the file's name): unreadable file or what gmsh says of it, no entity of the asked dimension, a
-/// plane geometry that is not in a plane z = constant, elements of higher order.
+/// Errors (InputError, with the file's name): unreadable file or what gmsh says of it, no entity of the asked
+/// dimension, a plane geometry that is not in a plane z = constant, elements of higher order.
 ///
-/// gmsh is started and stopped inside the call and writes nothing; standard output and error are closed meanwhile, so do
-/// not call it while other threads print.
+/// gmsh is started and stopped inside the call and writes nothing; standard output and error are closed meanwhile, so
+/// do not call it while other threads print.
 #include "geometry/simplex.hpp"
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct RawRegion
 {
     std::string name;
     std::vector<std::vector<Simplex>> parts; ///< one a surface (2D) or volume (3D) of the file
-    bool connected = false; ///< each part is one CAD surface, which may have holes but no islands
+    bool connected = false;                  ///< each part is one CAD surface, which may have holes but no islands
 };
 
 struct RawBoundary

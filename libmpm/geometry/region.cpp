@@ -31,6 +31,7 @@ BoxPart boxPart(const Region& region, const Vector3& lower, const Vector3& upper
 
 std::string placeText(const Vector3& p, int dim)
 {
-    return dim == 2 ? fmt::format("({:.9g} {:.9g})", p[0], p[1]) : fmt::format("({:.9g} {:.9g} {:.9g})", p[0], p[1], p[2]);
+    return dim == 2 ? fmt::format("({:.9g} {:.9g})", p[0], p[1])
+                    : fmt::format("({:.9g} {:.9g} {:.9g})", p[0], p[1], p[2]);
 }
 } // namespace mpm::geometry

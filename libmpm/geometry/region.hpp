@@ -1,5 +1,6 @@
 #pragma once
-/// A region: the inside of closed polygons (2D) or closed triangle surfaces (3D), and its share of the boxes of a tiling.
+/// A region: the inside of closed polygons (2D) or closed triangle surfaces (3D), and its share of the boxes of a
+/// tiling.
 ///
 /// The share of a box is found by the divergence theorem in the form
 ///     V = sum over surface pieces of the integral of (clamp(x, x0, x1) - x0) n_x dA,   y and z inside the box,
@@ -17,12 +18,12 @@ namespace mpm::geometry
 /// The part of one box inside a region. Volumes are areas in 2D.
 struct BoxPart
 {
-    Index box = 0;          ///< index of the box in its row
-    double volume = 0;      ///< [m^3], m^2 in 2D
-    double boxVolume = 0;   ///< of the whole box
-    Vector3 centroid{};     ///< of the part [m]
-    Vector3 extent{};       ///< lengths of the part's bounding box [m]
-    bool whole = false;     ///< the box is inside
+    Index box = 0;        ///< index of the box in its row
+    double volume = 0;    ///< [m^3], m^2 in 2D
+    double boxVolume = 0; ///< of the whole box
+    Vector3 centroid{};   ///< of the part [m]
+    Vector3 extent{};     ///< lengths of the part's bounding box [m]
+    bool whole = false;   ///< the box is inside
     /// Area the part has in common with the faces x0, x1, y0, y1, z0, z1 of its box.
     std::array<double, 6> contact{};
 };
@@ -37,9 +38,9 @@ class Region
 
     const std::string& name() const { return name_; }
     int dim() const { return dim_; }
-    double volume() const { return volume_; }           ///< [m^3], m^2 in 2D
+    double volume() const { return volume_; } ///< [m^3], m^2 in 2D
     const Vector3& centroid() const { return centroid_; }
-    const Vector3& lower() const { return lower_; }     ///< corners of the bounding box [m]
+    const Vector3& lower() const { return lower_; } ///< corners of the bounding box [m]
     const Vector3& upper() const { return upper_; }
 
     /// Is the point inside or on the surface? Decided exactly.
@@ -49,8 +50,8 @@ class Region
     virtual const std::vector<Vector3>& vertices() const = 0;
 
     using Row = std::function<void(Index row, Index layer, const std::vector<BoxPart>& parts)>;
-    /// Calls visit for every row that touches the region, in ascending order of (layer, row), with the boxes' parts that
-    /// are not empty, in ascending order. What lies outside the tiling is not seen. Linear in surface + boxes.
+    /// Calls visit for every row that touches the region, in ascending order of (layer, row), with the boxes' parts
+    /// that are not empty, in ascending order. What lies outside the tiling is not seen. Linear in surface + boxes.
     virtual void forEachRow(const BoxTiling& tiling, const Row& visit) const = 0;
 
   protected:

@@ -7,9 +7,9 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Polygon_set_2.h>
-#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,7 +35,9 @@ std::optional<Vector3> meeting(const Vector3& a, const Vector3& b, const Vector3
     const auto common = CGAL::intersection(Segment(exact(a), exact(b)), Segment(exact(c), exact(d)));
     if (!common)
         return std::nullopt;
-    const auto rounded = [](const Exact::Point_2& p) { return Vector3{CGAL::to_double(p.x()), CGAL::to_double(p.y()), 0}; };
+    const auto rounded = [](const Exact::Point_2& p) {
+        return Vector3{CGAL::to_double(p.x()), CGAL::to_double(p.y()), 0};
+    };
     if (const auto* p = boost::get<Exact::Point_2>(&*common))
     {
         const bool endOfFirst = *p == exact(a) || *p == exact(b);
@@ -61,8 +63,8 @@ void Region2D::checkLoops() const
     for (const Loop& loop : loops_)
     {
         if (loop.size() < 3)
-            throw InputError(fmt::format("region '{}': a boundary loop at {} has {} corners; at least 3 are needed", name_,
-                                         loop.empty() ? "" : placeText(loop[0], 2), loop.size()));
+            throw InputError(fmt::format("region '{}': a boundary loop at {} has {} corners; at least 3 are needed",
+                                         name_, loop.empty() ? "" : placeText(loop[0], 2), loop.size()));
         for (std::size_t i = 0; i < loop.size(); ++i)
             if (point(loop[i]) == point(loop[(i + 1) % loop.size()]))
                 throw InputError(fmt::format("region '{}': an edge of no length at {}", name_, placeText(loop[i], 2)));
@@ -81,7 +83,9 @@ std::vector<std::pair<std::size_t, std::size_t>> Region2D::checkCrossings() cons
         for (std::size_t e = 0; e < loops_[l].size(); ++e)
             items.push_back({l, e});
     const auto from = [&](const Item& i) -> const Vector3& { return loops_[i.loop][i.edge]; };
-    const auto to = [&](const Item& i) -> const Vector3& { return loops_[i.loop][(i.edge + 1) % loops_[i.loop].size()]; };
+    const auto to = [&](const Item& i) -> const Vector3& {
+        return loops_[i.loop][(i.edge + 1) % loops_[i.loop].size()];
+    };
 
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, const Item*>;
     std::vector<Box> boxes;
@@ -108,8 +112,10 @@ std::vector<std::pair<std::size_t, std::size_t>> Region2D::checkCrossings() cons
             crossing = same(from(a), from(b)) || same(from(a), to(b)) ? from(a) : to(a);
     });
     if (crossing)
-        throw InputError(fmt::format("region '{}': its boundary crosses or touches itself at {}; the curves must form simple "
-                                     "closed loops, holes strictly inside", name_, placeText(*crossing, 2)));
+        throw InputError(
+            fmt::format("region '{}': its boundary crosses or touches itself at {}; the curves must form simple "
+                        "closed loops, holes strictly inside",
+                        name_, placeText(*crossing, 2)));
     return touching;
 }
 
@@ -160,7 +166,8 @@ void Region2D::orient()
         for (const Vector3& c : loops_[l])
             corners.push_back(point(c));
         island_.push_back(depth[l] % 2 == 0);
-        const double area = std::abs(CGAL::to_double(CGAL::polygon_area_2(corners.begin(), corners.end(), Predicates())));
+        const double area =
+            std::abs(CGAL::to_double(CGAL::polygon_area_2(corners.begin(), corners.end(), Predicates())));
         if (area > largestArea)
             largestArea = area, largest_ = l;
         const bool counterClockwise =
@@ -257,7 +264,7 @@ void Region2D::forEachRow(const BoxTiling& tiling, const Row& visit) const
             const bool up = e->from[1] < e->to[1];
             const Vector3& low = up ? e->from : e->to;
             const Vector3& high = up ? e->to : e->from;
-            if (low[1] == high[1])
+            if (low[1] == high[1] && (low[1] <= y0 || low[1] >= y1))
                 continue;
             const auto at = [&](double y) {
                 return Vector3{low[0] + (high[0] - low[0]) * ((y - low[1]) / (high[1] - low[1])), y, 0};
@@ -267,7 +274,8 @@ void Region2D::forEachRow(const BoxTiling& tiling, const Row& visit) const
         }
         Vector3 bad{};
         if (!integral.finish([&](const Vector3& p) { return inside(p, active); }, parts, bad))
-            throw InputError(fmt::format("region '{}': its boundary does not enclose an area at {}", name_, placeText(bad, 2)));
+            throw InputError(
+                fmt::format("region '{}': its boundary does not enclose an area at {}", name_, placeText(bad, 2)));
         if (!parts.empty())
             visit(Index(j), 0, parts);
     }

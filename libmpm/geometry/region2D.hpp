@@ -3,8 +3,8 @@
 ///
 /// Loops may run either way: a loop inside an odd number of others is a hole (even-odd rule); afterwards islands run
 /// counter-clockwise and holes clockwise, so that the region lies to the left of every edge.
-/// Errors (InputError, with the region's name and the place): fewer than three corners, an edge of no length, edges that
-/// cross, overlap or touch inside an edge, loops that cross at a common corner. Loops may share single corners.
+/// Errors (InputError, with the region's name and the place): fewer than three corners, an edge of no length, edges
+/// that cross, overlap or touch inside an edge, loops that cross at a common corner. Loops may share single corners.
 #include "geometry/region.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class Region2D : public Region
     bool reversed(std::size_t i) const { return reversed_[i]; } ///< against the loop as given
     bool island(std::size_t i) const { return island_[i]; }     ///< else a hole
     std::size_t islands() const { return std::size_t(std::count(island_.begin(), island_.end(), true)); }
-    std::size_t largest() const { return largest_; }            ///< the loop around the largest area
+    std::size_t largest() const { return largest_; } ///< the loop around the largest area
 
   private:
     struct Edge

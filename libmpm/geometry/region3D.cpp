@@ -74,8 +74,8 @@ void Region3D::Body::build(const std::string& name, const std::vector<Vector3>& 
             corners[k] = at->second;
         }
         if (CGAL::collinear(soupPoints[corners[0]], soupPoints[corners[1]], soupPoints[corners[2]]))
-            throw InputError(fmt::format("region '{}': a triangle of no area at {}", name,
-                                         placeText(vertices[corners[0]], 3)));
+            throw InputError(
+                fmt::format("region '{}': a triangle of no area at {}", name, placeText(vertices[corners[0]], 3)));
         soup.push_back(corners);
     }
     PMP::orient_polygon_soup(soupPoints, soup); // keeps the order of triangles; may double points
@@ -90,9 +90,10 @@ void Region3D::Body::checkSurface(const std::string& name) const
         if (mesh.is_border(h) && open++ == 0)
             place = vector(CGAL::midpoint(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
     if (open > 0)
-        throw InputError(fmt::format("region '{}': its surface is open: {} of its edges have only one triangle (or more than "
-                                     "two that do not match), the first at {}; close the surface", name, open,
-                                     placeText(place, 3)));
+        throw InputError(
+            fmt::format("region '{}': its surface is open: {} of its edges have only one triangle (or more than "
+                        "two that do not match), the first at {}; close the surface",
+                        name, open, placeText(place, 3)));
     std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> cuts;
     PMP::self_intersections(mesh, std::back_inserter(cuts));
     if (cuts.empty())
@@ -111,8 +112,9 @@ void Region3D::Body::checkSurface(const std::string& name) const
         else if (const auto* s = boost::get<Kernel::Segment_3>(&*common))
             place = vector(CGAL::midpoint(s->source(), s->target()));
     }
-    throw InputError(fmt::format("region '{}': its surface cuts or touches itself in {} pairs of triangles, the first at {}",
-                                 name, cuts.size(), placeText(place, 3)));
+    throw InputError(
+        fmt::format("region '{}': its surface cuts or touches itself in {} pairs of triangles, the first at {}", name,
+                    cuts.size(), placeText(place, 3)));
 }
 
 /// Turns the mesh so that it bounds a volume, and the triangles with it.
@@ -162,8 +164,10 @@ Region3D::Region3D(std::string name, const std::vector<Vector3>& points, const s
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t k = 0; k < 3; ++k)
                 r[c][k] = facet.corners[c][k] - lower_[k];
-        const long double v = (r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) - r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
-                               r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0])) / 6;
+        const long double v =
+            (r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) - r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+             r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0])) /
+            6;
         volume += v;
         for (std::size_t k = 0; k < 3; ++k)
             moment[k] += v * (r[0][k] + r[1][k] + r[2][k]) / 4;
@@ -255,7 +259,8 @@ void Region3D::Body::sweepLayer(const std::string& name, const BoxTiling& tiling
         Vector3 bad{};
         const auto inside = [&](const Vector3& p) { return (*side)(Point(p[0], p[1], p[2])) == CGAL::ON_BOUNDED_SIDE; };
         if (!integral.finish(inside, parts, bad))
-            throw InputError(fmt::format("region '{}': its surface does not enclose a volume at {}", name, placeText(bad, 3)));
+            throw InputError(
+                fmt::format("region '{}': its surface does not enclose a volume at {}", name, placeText(bad, 3)));
         if (!parts.empty())
             visit(Index(j), layer, parts);
     }

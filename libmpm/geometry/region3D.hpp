@@ -1,5 +1,6 @@
 #pragma once
-/// A 3D region: closed triangle surfaces, nested ones bounding cavities. The only place where CGAL's 3D algorithms are used.
+/// A 3D region: closed triangle surfaces, nested ones bounding cavities. The only place where CGAL's 3D algorithms are
+/// used.
 ///
 /// Triangles may face either way; they are turned so that their normals point out of the region.
 /// Errors (InputError, with the region's name and the place): a degenerate triangle, an open surface, a surface that

@@ -250,7 +250,8 @@ bool RowIntegral::finish(const std::function<bool(const Vector3&)>& inside, std:
         }
         const double x0 = planes[std::size_t(box)], x1 = planes[std::size_t(box + 1)];
         const double boxVolume = (x1 - x0) * section;
-        const Vector3 middle{0.5 * (x0 + x1), 0.5 * (range_.y0 + range_.y1), dim_ == 3 ? 0.5 * (range_.z0 + range_.z1) : 0};
+        const Vector3 middle{0.5 * (x0 + x1), 0.5 * (range_.y0 + range_.y1),
+                             dim_ == 3 ? 0.5 * (range_.z0 + range_.z1) : 0};
         BoxPart part;
         if (own.touched)
         {
@@ -278,7 +279,8 @@ bool RowIntegral::finish(const std::function<bool(const Vector3&)>& inside, std:
             part.volume = boxVolume;
             part.centroid = middle;
             part.extent = {x1 - x0, width, depth};
-            part.contact = {section, section, (x1 - x0) * depth, (x1 - x0) * depth, (x1 - x0) * width, (x1 - x0) * width};
+            part.contact = {section,           section,           (x1 - x0) * depth,
+                            (x1 - x0) * depth, (x1 - x0) * width, (x1 - x0) * width};
         }
         if (part.volume > dust * boxVolume)
             parts.push_back(part);

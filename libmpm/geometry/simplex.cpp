@@ -60,8 +60,10 @@ class Chainer
                 at_[segments[s][std::size_t(end)]].push_back(s);
         for (const auto& [point, at] : at_)
             if (at.size() % 2 != 0)
-                throw InputError(fmt::format("{}: the boundary is open: a curve ends at {} without another to go on; close "
-                                             "the loop there", name, placeText(points[std::size_t(point)], 2)));
+                throw InputError(
+                    fmt::format("{}: the boundary is open: a curve ends at {} without another to go on; close "
+                                "the loop there",
+                                name, placeText(points[std::size_t(point)], 2)));
     }
 
     std::vector<std::vector<int>> run()
@@ -108,7 +110,8 @@ class Chainer
         return std::any_of(at.begin(), at.end(), [&](std::size_t s) { return !used_[s]; });
     }
 
-    /// The unused segment that comes first counter-clockwise from the one we came by, so that loops meet without crossing.
+    /// The unused segment that comes first counter-clockwise from the one we came by, so that loops meet without
+    /// crossing.
     std::size_t nextAt(int here, std::size_t from) const
     {
         const auto angle = [&](std::size_t s) {

@@ -1,15 +1,26 @@
 #pragma once
 // Bodies, and the files that describe them, for tests of geometry and seeding.
 #include "geometry/simplex.hpp"
+#include "state/gridBox.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gmsh.h>
 #include <iomanip>
-#include <cmath>
 
 namespace mpm::test
 {
+inline state::GridBox gridBox(int dim, const Vector3& origin, double h, std::array<Index, 3> cells)
+{
+    state::GridBox grid;
+    grid.dim = dim;
+    grid.origin = origin;
+    grid.h = h;
+    grid.cells = cells;
+    return grid;
+}
+
 struct Surface3
 {
     std::vector<Vector3> points;
@@ -82,8 +93,11 @@ inline double volumeOf(const Surface3& s)
     double sum = 0;
     for (const auto& t : s.triangles)
     {
-        const Vector3 &a = s.points[std::size_t(t[0])], &b = s.points[std::size_t(t[1])], &c = s.points[std::size_t(t[2])];
-        sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+        const Vector3 &a = s.points[std::size_t(t[0])], &b = s.points[std::size_t(t[1])],
+                      &c = s.points[std::size_t(t[2])];
+        sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+                a[2] * (b[0] * c[1] - b[1] * c[0])) /
+               6;
     }
     return sum;
 }
@@ -112,7 +126,8 @@ inline std::filesystem::path writeStl(const std::string& name, const Surface3& s
     {
         out << "facet normal 0 0 0\nouter loop\n";
         for (const int i : t)
-            out << "vertex " << s.points[std::size_t(i)][0] << ' ' << s.points[std::size_t(i)][1] << ' ' << s.points[std::size_t(i)][2] << '\n';
+            out << "vertex " << s.points[std::size_t(i)][0] << ' ' << s.points[std::size_t(i)][1] << ' '
+                << s.points[std::size_t(i)][2] << '\n';
         out << "endloop\nendfacet\n";
     }
     out << "endsolid body\n";

@@ -86,13 +86,13 @@ TEST_CASE("polygons that are not simple are refused with name and place")
     const auto refused = [](const Loops& loops, const std::string& place) {
         REQUIRE_THROWS_WITH(Region2D("soil", loops), Contains("'soil'") && Contains(place));
     };
-    refused({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}, "(1 1)");                                         // bow tie
-    refused({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{3, 1}, {5, 1}, {5, 2}, {3, 2}}}, "(4 ");          // hole across the edge
-    refused({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{0, 1}, {1, 1}, {1, 2}, {0, 2}}}, "(0 ");          // hole along the edge
+    refused({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}, "(1 1)");                                 // bow tie
+    refused({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{3, 1}, {5, 1}, {5, 2}, {3, 2}}}, "(4 "); // hole across the edge
+    refused({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{0, 1}, {1, 1}, {1, 2}, {0, 2}}}, "(0 "); // hole along the edge
     refused({{{0, 0}, {1, 0}}}, "2 corners");
     refused({{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}, "(1 0)");
-    refused({{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}}}, "(1 1)");                          // a corner passed twice
-    refused({{{0, 0}, {2, 0}, {2, 1}, {1, 0}, {0, 1}}}, "(1 0)");                                          // a corner on an edge
+    refused({{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}}}, "(1 1)"); // a corner passed twice
+    refused({{{0, 0}, {2, 0}, {2, 1}, {1, 0}, {0, 1}}}, "(1 0)");         // a corner on an edge
 }
 
 TEST_CASE("loops may meet at a corner")
@@ -107,8 +107,8 @@ TEST_CASE("loops may meet at a corner")
 TEST_CASE("segments are chained into simple loops that do not cross")
 {
     const std::vector<Vector3> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 1}, {2, 2}, {1, 2}};
-    const std::vector<Simplex> segments = {{0, 1, -1}, {3, 2, -1}, {2, 4, -1}, {1, 2, -1}, {5, 4, -1},
-                                           {3, 0, -1}, {6, 5, -1}, {2, 6, -1}};
+    const std::vector<Simplex> segments = {{0, 1, -1}, {3, 2, -1}, {2, 4, -1}, {1, 2, -1},
+                                           {5, 4, -1}, {3, 0, -1}, {6, 5, -1}, {2, 6, -1}};
     const auto loops = chainLoops(points, segments, "two");
     REQUIRE(loops.size() == 2);
     CHECK(loops[0].size() == 4);
@@ -251,7 +251,8 @@ TEST_CASE("3D: .geo, .step, .stl and .msh of the same solid")
         CHECK(meshVolume == Approx(7).epsilon(1e-12));
     }
 
-    const auto step = stepOf("SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 2, 3}; Sphere(2) = {5, 0, 0, 1};", "cad.step");
+    const auto step =
+        stepOf("SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 2, 3}; Sphere(2) = {5, 0, 0, 1};", "cad.step");
     const BodyGeometry cad = readGeometry(step, 3);
     REQUIRE(cad.regions.size() == 1);
     CHECK(cad.regions[0]->name() == "cad");
@@ -279,18 +280,23 @@ TEST_CASE("bad files are refused with their name and what to do")
     refused(writeText("empty.geo", "Point(1) = {0, 0, 0};\n"), 2, "asks for 2");
     refused(writeText("flat.geo", plateWithHole), 3, "dimension 2, but gridDict asks for 3");
     refused(writeText("tilted.geo", R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1};
-        Rotate{ {1, 0, 0}, {0, 0, 0}, 0.1 }{ Surface{1}; })"), 2, "leaves its plane");
+        Rotate{ {1, 0, 0}, {0, 0, 0}, 0.1 }{ Surface{1}; })"),
+            2, "leaves its plane");
     const std::string square = R"(
         Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 2, 0}; Point(4) = {0, 2, 0};
         Point(5) = {5, 0, 0}; Point(6) = {6, 0, 0}; Point(7) = {6, 1, 0};
         Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 5}; Curve Loop(2) = {5, 6, 7};
     )";
     refused(writeText("bowTie.geo", square + R"(Line(1) = {1, 3}; Line(2) = {3, 2}; Line(3) = {2, 4}; Line(4) = {4, 1};
-        Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Physical Surface("soil") = {1};)"), 2, "'soil': its boundary crosses or touches itself at (1 1)");
+        Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1}; Physical Surface("soil") = {1};)"),
+            2, "'soil': its boundary crosses or touches itself at (1 1)");
     refused(writeText("farHole.geo", square + R"(Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
-        Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1, 2}; Physical Surface("soil") = {1};)"), 2, "'soil': a surface has a loop at (");
-    refused(writeText("overlap.geo", R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Rectangle(2) = {1, 1, 0, 2, 2};
-        Physical Surface("soil") = {1}; Physical Surface("rock") = {2};)"), 2, "'soil' and 'rock' overlap in 1 m2");
+        Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1, 2}; Physical Surface("soil") = {1};)"),
+            2, "'soil': a surface has a loop at (");
+    refused(writeText("overlap.geo",
+                      R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Rectangle(2) = {1, 1, 0, 2, 2};
+        Physical Surface("soil") = {1}; Physical Surface("rock") = {2};)"),
+            2, "'soil' and 'rock' overlap in 1 m2");
     Surface3 open = boxSurface({0, 0, 0}, {1, 1, 1});
     open.triangles.pop_back();
     refused(writeStl("openBox.stl", open), 3, "'openBox': its surface is open");

@@ -1,0 +1,34 @@
+#include "seeding/seedMaterials.hpp"
+
+#include "constitutive/law.hpp"
+
+#include <fmt/format.h>
+
+namespace mpm::seeding
+{
+std::vector<SeedMaterial> readMaterials(const dictionary::Dictionary& materialProperties, const Vector3& g, int dim)
+{
+    using dictionary::Bound;
+    namespace unit = dictionary::unit;
+    std::vector<SeedMaterial> materials;
+    for (const std::string& name : materialProperties.dictNames())
+    {
+        const auto& dict = materialProperties.subDict(name, "a material");
+        const auto law = constitutive::makeLaw(dict);
+        SeedMaterial material;
+        material.name = name;
+        material.description = law->describe();
+        material.density = dict.get<double>({"density", "mass per initial volume", unit::density, Bound::positive()});
+        material.velocity =
+            dict.get<Vector3>({"initialVelocity", "velocity at the start", unit::velocity, {}, Vector3{}});
+        if (dim == 2 && material.velocity[2] != 0)
+            dict.fail("initialVelocity", fmt::format("z component {:.6g}", material.velocity[2]), "0 in 2D");
+        material.initialStress = readInitialStress(dict, law->poissonRatio(), g, dim);
+        materials.push_back(std::move(material));
+    }
+    if (materials.empty())
+        throw InputError(materialProperties.where(),
+                         "no material here; one dictionary a material: soil { law ...; density ...; }");
+    return materials;
+}
+} // namespace mpm::seeding
