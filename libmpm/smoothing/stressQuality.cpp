@@ -82,7 +82,7 @@ StressQuality stressQuality(const state::State& state, const WeightTable& table,
             for (std::size_t a = 0; a < std::size_t(p.dim); ++a)
                 quality.worstPlace[a] = p.x[a][i];
         }
-    if (overburden)
+    if (overburden && Overburden::defined(gravity, p.dim))
         *overburden = std::move(atParticles);
     return quality;
 }

@@ -35,7 +35,8 @@ FieldQuality fieldQuality(const std::vector<double>& values, const std::vector<d
 double relativeDifference(const std::vector<double>& a, const std::vector<double>& b);
 
 /// For the normal stress along gravity. Without gravity along one axis there is no overburden: sigma_yy is taken, and
-/// what compares with overburden is not a number. overburden, if given, receives that of every particle.
+/// what compares with overburden is not a number. overburden receives that of every particle,
+/// if there is one.
 StressQuality stressQuality(const state::State& state, const WeightTable& table, const SmoothedStress& smoothed,
                             const Vector3& gravity, std::vector<double>* overburden = nullptr);
 } // namespace mpm::smoothing

@@ -13,7 +13,8 @@
 
 using namespace mpm;
 
-namespace {
+namespace
+{
 std::string readShape(const cases::CaseDirectory& here)
 {
     std::vector<dictionary::Choice> shapes;
@@ -32,21 +33,33 @@ Vector3 readGravity(const cases::CaseDirectory& here)
 }
 
 void store(const std::filesystem::path& file, const state::State& state, const smoothing::SmoothedStress& stress,
-           const std::vector<double>& overburden)
+           const std::vector<double>& overburden, int axis)
 {
-    const std::vector<std::string> names(stressNames.begin(),
-                                         stressNames.begin() + stressComponents(state.particles.dim));
-    output::writeDerived(file, state,
-                         {{"smoothedStress", "Pa", names, stress.smoothed}, {"overburden", "Pa", {"yy"}, {overburden}}},
-                         {stress.nodePosition,
-                          {{"stress", "Pa", names, stress.nodal},
-                           {"mass", state.particles.dim == 2 ? "kg/m" : "kg", {"mass"}, {stress.nodeMass}}}});
+    const int dim = state.particles.dim;
+    const std::vector<std::string> names(stressNames.begin(), stressNames.begin() + stressComponents(dim));
+    std::vector<output::DerivedField> fields{{"smoothedStress", "Pa", names, stress.smoothed}};
+    if (!overburden.empty())
+        fields.push_back({"overburden", "Pa", {names[std::size_t(axis)]}, {overburden}});
+    output::writeDerived(
+        file, state, fields,
+        {stress.nodePosition,
+         {{"stress", "Pa", names, stress.nodal}, {"mass", dim == 2 ? "kg/m" : "kg", {"mass"}, {stress.nodeMass}}}});
 }
 
 const std::vector<std::string> columns{
     "time",       "particles",     "minNodal",         "minRaw",         "minSmoothed",         "errorNodal",
     "errorRaw",   "errorSmoothed", "correlationNodal", "correlationRaw", "correlationSmoothed", "noise",
     "noiseFloor", "worstX",        "worstY",           "worstZ",         "worstError"};
+
+std::vector<std::string> tableRow(const std::string& name, Index particles, const smoothing::StressQuality& q)
+{
+    std::vector<std::string> row{name, std::to_string(particles)};
+    for (double value : {q.nodal.min, q.raw.min, q.smoothed.min, q.nodal.error, q.raw.error, q.smoothed.error})
+        row.push_back(fmt::format("{:.1f}", 1e-3 * value));
+    for (double value : {q.nodal.correlation, q.raw.correlation, q.smoothed.correlation, q.noise, q.noiseFloor})
+        row.push_back(fmt::format("{:.3f}", value));
+    return row;
+}
 } // namespace
 
 int main(int argc, char** argv)
@@ -67,31 +80,31 @@ int main(int argc, char** argv)
             return 0;
         here.requireWritable();
         output::CsvSeries csv(here.postProcessing() / "smoothStress.csv", columns);
-        Table table({"time [s]", "particles", "min nodal", "raw", "smoothed [kPa]", "error nodal", "raw",
-                     "smoothed [kPa]", "corr. nodal", "raw", "smoothed", "N", "N floor"});
-        for (const auto& time : times) {
+        Table table({"time", "particles", "min nodal", "min raw", "min smoothed", "error nodal", "error raw",
+                     "error smoothed", "corr nodal", "corr raw", "corr smoothed", "N", "N floor"});
+        int axis = 1;
+        for (const auto& time : times)
+        {
             const auto state = output::readState(here.statePath(time.name));
             const auto weights = smoothing::weightTable(state, shape);
             const auto stress = smoothing::smoothStress(state.particles, weights);
             std::vector<double> overburden;
             const auto q = smoothing::stressQuality(state, weights, stress, gravity, &overburden);
-            store(here.statePath(time.name), state, stress, overburden);
-            const auto& [n, r, s] = std::tie(q.nodal, q.raw, q.smoothed);
             const auto& at = q.worstPlace;
-            csv.write({state.time, double(state.particles.size()), n.min, r.min, s.min, n.error, r.error, s.error,
-                       n.correlation, r.correlation, s.correlation, q.noise, q.noiseFloor, at[0], at[1], at[2],
-                       q.worstError});
-            std::vector<std::string> row{time.name, std::to_string(state.particles.size())};
-            for (double value : {n.min, r.min, s.min, n.error, r.error, s.error})
-                row.push_back(fmt::format("{:.1f}", 1e-3 * value));
-            for (double value : {n.correlation, r.correlation, s.correlation, q.noise, q.noiseFloor})
-                row.push_back(fmt::format("{:.3f}", value));
-            table.row(row);
+            axis = q.axis;
+            store(here.statePath(time.name), state, stress, overburden, axis);
+            csv.write({state.time, double(state.particles.size()), q.nodal.min, q.raw.min, q.smoothed.min,
+                       q.nodal.error, q.raw.error, q.smoothed.error, q.nodal.correlation, q.raw.correlation,
+                       q.smoothed.correlation, q.noise, q.noiseFloor, at[0], at[1], at[2], q.worstError});
+            table.row(tableRow(time.name, state.particles.size(), q));
         }
         std::vector<std::string> all;
         for (const auto& time : here.times())
             all.push_back(time.name);
         output::writeParaviewSeries(here.folder(), here.name(), all);
+        fmt::print("sigma_{} [kPa]: minimum, RMS error and correlation against overburden; N = RMS(raw - smoothed)/"
+                   "RMS(smoothed)\n",
+                   stressNames[std::size_t(axis)]);
         fmt::print("{}wrote postProcessing/smoothStress.csv and derived fields in {} state files\n", table.text(),
                    times.size());
         return 0;

@@ -26,6 +26,7 @@ def write_state(folder, time, dimension=2, smoothed=True):
         file["particles/position"] = np.arange(4.0)[:, None] + np.zeros(dimension)
         file["particles/deformationGradient"] = np.tile(np.eye(dimension), (4, 1, 1))
         file["particles/length0"] = np.ones((4, dimension))
+        file["particles/id"] = np.arange(4)
         if smoothed:
             file["derived/smoothedStress"] = np.full((4, components), -25e3)
 
@@ -86,6 +87,25 @@ class PlotCase(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertEqual([line.split(":")[0] for line in out.splitlines() if line.startswith("t = ")],
                          ["t = 0.5 s", "t = 1 s", "t = 2 s", "t = 2.5 s"])
+
+    def test_ranges_and_nearest_times(self):
+        for wanted, drawn in (("0.5:1", ["0.5", "1"]), (":0.6,2.2:", ["0", "0.5", "2.5"]), ("1.1", ["1"]), ("2.7", ["2.5"])):
+            code, out, err = self.plot("-time", wanted)
+            self.assertEqual(code, 0, err)
+            self.assertEqual([line.split()[2] for line in out.splitlines() if line.startswith("t = ")], drawn)
+        shutil.rmtree(self.case / "postProcessing" / "figures")
+        for wrong in ("0.6:0.9", "2:1", "1:2:3", "a:1", "", ","):
+            self.refused("-time", wrong, says=["-time"])
+
+    def test_initial_corners_are_marked_and_titles_tell_percentiles(self):
+        code, _, err = self.plot("-time", "1")
+        self.assertEqual(code, 0, err)
+        svg = (self.case / "postProcessing" / "figures" / "sigma_yy.svg").read_text()
+        # matplotlib writes the words of a title as a comment before its glyphs
+        self.assertIn("t = 1 s, raw: min -40, p1 -40, max -10.0 kPa, 4 particles", svg)
+        self.assertIn("t = 1 s, smoothed: min -25, p1 -25, max -25.0 kPa, 4 particles", svg)
+        # the body is one slanted row: two of its particles are nearest to corners of its box, the others to two more
+        self.assertGreaterEqual(svg.count("fill: #ffffff; stroke: #000000; stroke-width: 0.8"), 8)
 
     def test_same_input_same_figure(self):
         folder = self.case / "postProcessing" / "figures"
