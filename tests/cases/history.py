@@ -1,4 +1,4 @@
-"""postProcessing/history.csv of a run: its columns, and what must hold in every run."""
+"""The tables a run leaves in postProcessing/, and a report of checks on them."""
 
 import csv
 from pathlib import Path
@@ -12,18 +12,17 @@ COLUMNS = (
 ).split(",")
 
 
-class History:
-    """Columns by name: history["kineticEnergy"] is an array over the rows."""
+class Table:
+    """A CSV file by columns: table["kineticEnergy"] is an array over the rows."""
 
-    def __init__(self, case):
-        self.path = Path(case) / "postProcessing" / "history.csv"
-        with open(self.path, newline="") as file:
+    def __init__(self, case, name="history.csv"):
+        with open(Path(case) / "postProcessing" / name, newline="") as file:
             rows = list(csv.reader(file))
         self.header = rows[0]
-        self.table = np.array([[float(value) for value in row] for row in rows[1:]])
+        self.rows = np.array([[float(value) for value in row] for row in rows[1:]])
 
     def __getitem__(self, column):
-        return self.table[:, self.header.index(column)]
+        return self.rows[:, self.header.index(column)]
 
     def last(self, column):
         return self[column][-1]
@@ -32,12 +31,13 @@ class History:
         return float(np.interp(time, self["time"], self[column]))
 
 
-def energy_mismatch(history):
-    """What the other columns say the residual is: energy in the body and energy taken from it, less what came in."""
+def recomputed_residual(history, budget):
+    """The energy that came in, less what the body holds more than at the start, less what was taken from it. The work of
+    normal wall forces (wallLoss) has no column in the history."""
     held = history["kineticEnergy"] + history["strainEnergy"]
     taken = sum(history[name] for name in
                 ("plasticDissipation", "frictionDissipation", "splitMergeLoss", "transferLoss"))
-    return held - held[0] + taken - history["gravityWork"]
+    return history["gravityWork"] - (held - held[0]) - taken - budget["wallLoss"]
 
 
 class Report:
