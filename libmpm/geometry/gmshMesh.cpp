@@ -27,7 +27,9 @@ class Session
         gmsh::initialize(0, nullptr, false);
         gmsh::option::setNumber("General.Terminal", 0);
         gmsh::option::setNumber("General.AbortOnError", 0); // leaves its parser in order; the log has the errors
-        gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", dim == 2 ? 180 : 90);
+        // Chords of curves that the file leaves coarse; what it sets itself comes later and wins.
+        gmsh::option::setNumber("Mesh.MinimumCirclePoints", dim == 2 ? 180 : 130);
+        gmsh::option::setNumber("Mesh.MinimumCurvePoints", dim == 2 ? 101 : 41);
         gmsh::logger::start();
     }
     ~Session()
@@ -137,6 +139,7 @@ class Reader
         if (cad_)
         {
             gmsh::option::setNumber("Mesh.ElementOrder", 1);
+            refineCurvedSurfaces();
             model::mesh::generate(mesh_.dim - 1);
         }
         std::vector<std::size_t> tags;
@@ -147,6 +150,17 @@ class Reader
             index_.emplace(tags[i], int(i));
             mesh_.points.push_back({coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
         }
+    }
+
+    /// Curved surfaces of OpenCASCADE's kernel; in gmsh's own the same option takes minutes, and edges rule the surfaces.
+    void refineCurvedSurfaces() const
+    {
+        double chords = 0;
+        gmsh::vectorpair solids;
+        model::occ::getEntities(solids, 3);
+        gmsh::option::getNumber("Mesh.MeshSizeFromCurvature", chords);
+        if (mesh_.dim == 3 && !solids.empty() && chords == 0)
+            gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 130);
     }
 
     void readUnit()

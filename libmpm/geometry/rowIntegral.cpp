@@ -41,6 +41,15 @@ void clipPolygon(const std::vector<Vector3>& polygon, int axis, double plane, bo
     }
 }
 
+void RowIntegral::Sums::addBeyond(const Sums& own)
+{
+    area += own.area;
+    ay += own.ay;
+    az += own.az;
+    for (std::size_t f = 0; f < 4; ++f)
+        beyond[f] += own.beyond[f];
+}
+
 void RowIntegral::start(const std::vector<double>& xPlanes, const RowRange& range)
 {
     planes_ = &xPlanes;
@@ -222,69 +231,60 @@ BoxPart RowIntegral::cutPart(Index box, const Sums& own, const Sums& above) cons
     return part;
 }
 
+BoxPart RowIntegral::wholePart(Index box) const
+{
+    const double x0 = (*planes_)[std::size_t(box)], x1 = (*planes_)[std::size_t(box + 1)], length = x1 - x0;
+    const double width = range_.y1 - range_.y0, depth = range_.z1 - range_.z0;
+    BoxPart part;
+    part.box = box;
+    part.whole = true;
+    part.volume = part.boxVolume = length * width * depth;
+    part.centroid = {0.5 * (x0 + x1), 0.5 * (range_.y0 + range_.y1), dim_ == 3 ? 0.5 * (range_.z0 + range_.z1) : 0};
+    part.extent = {length, width, depth};
+    part.contact = {width * depth, width * depth, length * depth, length * depth, length * width, length * width};
+    return part;
+}
+
 bool RowIntegral::finish(const std::function<bool(const Vector3&)>& inside, std::vector<BoxPart>& parts, Vector3& bad)
 {
     parts.clear();
-    const auto& planes = *planes_;
-    const double width = range_.y1 - range_.y0, depth = range_.z1 - range_.z0, section = width * depth;
-    const double whole = dim_ == 2 ? wholeTolerance2D : wholeTolerance3D;
+    const Index boxes = Index(planes_->size()) - 1;
+    const double section = (range_.y1 - range_.y0) * (range_.z1 - range_.z0);
+    const double roundOff = dim_ == 2 ? wholeTolerance2D : wholeTolerance3D;
     Sums above;
-    const auto add = [&](const Sums& own) {
-        above.area += own.area;
-        above.ay += own.ay;
-        above.az += own.az;
-        for (std::size_t f = 0; f < 4; ++f)
-            above.beyond[f] += own.beyond[f];
-    };
+    if (last_ == boxes)
+        above.addBeyond(sums_[std::size_t(boxes)]);
     bool runInside = false, runKnown = false;
-    // Boxes beyond the last touched one see nothing of the surface: empty.
-    for (Index box = last_; box >= 0; --box)
+    // From the far end: boxes behind the last piece see nothing of the surface, and are empty.
+    for (Index box = std::min(last_, boxes - 1); box >= 0; --box)
     {
-        const Sums own = box < first_ ? Sums{} : sums_[std::size_t(box)];
-        if (box < first_ && std::abs(above.area) <= closedTolerance * section)
-            break;
-        if (box + 1 == Index(planes.size()))
-        {
-            add(own);
-            continue;
-        }
-        const double x0 = planes[std::size_t(box)], x1 = planes[std::size_t(box + 1)];
-        const double boxVolume = (x1 - x0) * section;
-        const Vector3 middle{0.5 * (x0 + x1), 0.5 * (range_.y0 + range_.y1),
-                             dim_ == 3 ? 0.5 * (range_.z0 + range_.z1) : 0};
-        BoxPart part;
+        const BoxPart whole = wholePart(box);
+        const Sums& own = sums_[std::size_t(box)];
+        bad = whole.centroid;
         if (own.touched)
         {
+            BoxPart part = cutPart(box, own, above);
+            part.boxVolume = whole.boxVolume;
+            const double filled = part.volume / whole.boxVolume;
+            if (filled > 1 + closedTolerance || filled < -closedTolerance)
+                return false;
+            if (std::abs(filled - 1) <= roundOff)
+                parts.push_back(whole);
+            else if (filled > dust)
+                parts.push_back(part);
+            above.addBeyond(own);
             runKnown = false;
-            part = cutPart(box, own, above);
-            part.whole = std::abs(part.volume - boxVolume) <= whole * boxVolume;
-            bad = middle;
-            if (part.volume > (1 + closedTolerance) * boxVolume || part.volume < -closedTolerance * boxVolume)
-                return false;
+            continue;
         }
-        else
-        {
-            if (!runKnown)
-                runInside = inside(middle);
-            runKnown = true;
-            bad = middle;
-            if (std::abs(above.area - (runInside ? section : 0)) > closedTolerance * section)
-                return false;
-            part.box = box;
-            part.whole = runInside;
-        }
-        part.boxVolume = boxVolume;
-        if (part.whole)
-        {
-            part.volume = boxVolume;
-            part.centroid = middle;
-            part.extent = {x1 - x0, width, depth};
-            part.contact = {section,           section,           (x1 - x0) * depth,
-                            (x1 - x0) * depth, (x1 - x0) * width, (x1 - x0) * width};
-        }
-        if (part.volume > dust * boxVolume)
-            parts.push_back(part);
-        add(own);
+        if (box < first_ && std::abs(above.area) <= closedTolerance * section)
+            break;
+        if (!runKnown)
+            runInside = inside(whole.centroid);
+        runKnown = true;
+        if (std::abs(above.area - (runInside ? section : 0)) > closedTolerance * section)
+            return false;
+        if (runInside)
+            parts.push_back(whole);
     }
     std::reverse(parts.begin(), parts.end());
     return true;

@@ -40,6 +40,8 @@ class RowIntegral
         std::array<double, 4> contact{}; ///< at y0, y1, z0, z1: own pieces
         std::array<double, 4> beyond{};  ///< what pieces at larger x add per length
         Vector3 lower{}, upper{};
+
+        void addBeyond(const Sums& own); ///< what boxes at smaller x see of it
     };
 
     Index boxOf(double x) const;
@@ -47,6 +49,7 @@ class RowIntegral
     void addToBox(Index box, const Vector3& a, const Vector3& b);
     void addToBox(Index box, const std::vector<Vector3>& polygon);
     void addFan(Sums& sums, const Vector3& a, const Vector3& b, const Vector3& c) const;
+    BoxPart wholePart(Index box) const;
     BoxPart cutPart(Index box, const Sums& own, const Sums& above) const;
 
     int dim_;
