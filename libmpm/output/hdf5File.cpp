@@ -92,12 +92,14 @@ std::vector<std::string> pathsDownTo(const std::string& name)
     return out;
 }
 
-/// File access in which closing the file closes everything in it.
+/// File access in which closing the file closes everything in it, and what is written is in the format of HDF5 1.8,
+/// whose superblock, headers and heaps carry checksums: damage is noticed before the library walks through it.
 Handle strongAccess()
 {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // our messages, not HDF5's
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
     return access;
 }
 
