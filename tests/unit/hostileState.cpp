@@ -1,4 +1,5 @@
-// State files that are truncated, damaged, foreign or made to do harm: always one InputError that names file and object.
+// State files that are truncated, damaged, foreign or made to do harm: always one InputError that names file and
+// object.
 #include "base/error.hpp"
 #include "output/hdf5File.hpp"
 #include "output/stateFile.hpp"
@@ -118,7 +119,8 @@ TEST_CASE("datasets of wrong type, rank or length, and missing ones, are named")
         edit.remove("/particles/mass");
         edit.write<float>("/particles/mass", narrow, {30}, "kg");
         edit.close();
-        CHECK_THAT(refusal(file), Catch::Contains("/particles/mass: holds values of 32-bit float, 64-bit float expected"));
+        CHECK_THAT(refusal(file),
+                   Catch::Contains("/particles/mass: holds values of 32-bit float, 64-bit float expected"));
     }
     SECTION("text for a number")
     {
@@ -180,7 +182,8 @@ TEST_CASE("values that are no state are refused, naming the particle")
     }
     SECTION("volume")
     {
-        CHECK_THAT(spoil("/particles/volume", {30}, 7, -1.0), Catch::Contains(seventh) && Catch::Contains("volume is -1"));
+        CHECK_THAT(spoil("/particles/volume", {30}, 7, -1.0),
+                   Catch::Contains(seventh) && Catch::Contains("volume is -1"));
     }
     SECTION("position")
     {
@@ -188,7 +191,8 @@ TEST_CASE("values that are no state are refused, naming the particle")
     }
     SECTION("stress")
     {
-        CHECK_THAT(spoil("/particles/stress", {30, 4}, 30, HUGE_VAL), Catch::Contains(seventh) && Catch::Contains("inf"));
+        CHECK_THAT(spoil("/particles/stress", {30, 4}, 30, HUGE_VAL),
+                   Catch::Contains(seventh) && Catch::Contains("inf"));
     }
     SECTION("det F")
     {
