@@ -68,7 +68,8 @@ std::vector<Range> parseRanges(const std::string& text)
         const auto high = colon == std::string::npos ? low : number(part.substr(colon + 1));
         const bool openLow = colon == 0, openHigh = colon == part.size() - 1;
         if ((!low && !openLow) || (!high && !openHigh) || (low && high && *low > *high))
-            throw InputError(fmt::format("-time: found \"{}\", allowed are times and ranges like 0.5,1,2: or 0:1", part));
+            throw InputError(
+                fmt::format("-time: found \"{}\", allowed are times and ranges like 0.5,1,2: or 0:1", part));
         ranges.push_back({part, low.value_or(-infinity), high.value_or(infinity), colon == std::string::npos});
     }
     if (ranges.empty())
@@ -113,9 +114,9 @@ fs::path CaseDirectory::dictionaryPath(const std::string& relative) const
     for (const auto& entry : fs::directory_iterator(place, error))
         there.push_back(entry.path().filename().string());
     const std::string near = nearestWord(fs::path(relative).filename().string(), there);
-    throw InputError({(folder_ / relative).string()},
-                     fmt::format("no such file{}; {}", near.empty() ? "" : fmt::format(" (did you mean {}?)", near),
-                                 caseContents));
+    throw InputError(
+        {(folder_ / relative).string()},
+        fmt::format("no such file{}; {}", near.empty() ? "" : fmt::format(" (did you mean {}?)", near), caseContents));
 }
 
 fs::path CaseDirectory::geometryPath(const std::string& relative) const
@@ -162,14 +163,15 @@ std::vector<TimeFolder> CaseDirectory::times() const
 TimeFolder CaseDirectory::pickNearest(const std::vector<TimeFolder>& all, double time, const std::string& what) const
 {
     if (all.empty())
-        throw InputError({folder_.string()}, "no times here (folders like 0/ with a state.h5); run seedParticles first");
+        throw InputError({folder_.string()},
+                         "no times here (folders like 0/ with a state.h5); run seedParticles first");
     const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.value - time) < std::abs(b.value - time);
     });
-    const double spacing = all.size() < 2                ? 0
-                           : nearest == all.begin()      ? all[1].value - all[0].value
-                           : nearest == all.end() - 1    ? all.back().value - all[all.size() - 2].value
-                                                         : std::numeric_limits<double>::infinity();
+    const double spacing = all.size() < 2             ? 0
+                           : nearest == all.begin()   ? all[1].value - all[0].value
+                           : nearest == all.end() - 1 ? all.back().value - all[all.size() - 2].value
+                                                      : std::numeric_limits<double>::infinity();
     if (std::abs(nearest->value - time) > std::max(0.5 * spacing, 1e-6 * std::abs(time)))
         throw InputError({folder_.string()}, fmt::format("no time near {}; there are: {}", what, timeList(all)));
     return *nearest;

@@ -64,8 +64,8 @@ std::string CsvSeries::keptRows(double until)
         const auto commas = std::count(line.begin(), line.end(), ',');
         if (error != std::errc() || std::size_t(commas) + 1 != columns_.size() ||
             (end != line.data() + line.size() && *end != ','))
-            throw InputError({file_.string(), number}, fmt::format("found \"{}\", {} numbers with commas expected", line,
-                                                                   columns_.size()));
+            throw InputError({file_.string(), number},
+                             fmt::format("found \"{}\", {} numbers with commas expected", line, columns_.size()));
         if (time > limit)
             continue;
         rows += line + "\n";

@@ -95,7 +95,8 @@ void rewrite(const fs::path& name, const state::State& state, const std::vector<
     std::error_code error;
     fs::copy_file(name, temporary, fs::copy_options::overwrite_existing, error);
     if (error)
-        throw InputError({name.string()}, fmt::format("cannot be copied to {}: {}", temporary.string(), error.message()));
+        throw InputError({name.string()},
+                         fmt::format("cannot be copied to {}: {}", temporary.string(), error.message()));
     try
     {
         Hdf5File file = Hdf5File::edit(temporary);

@@ -30,7 +30,8 @@ struct NodalFields
 };
 
 /// Adds (or replaces) particle fields, through a temporary copy and a rename.
-void writeDerived(const std::filesystem::path& file, const state::State& state, const std::vector<DerivedField>& fields);
+void writeDerived(const std::filesystem::path& file, const state::State& state,
+                  const std::vector<DerivedField>& fields);
 /// The same, and all nodal fields anew.
 void writeDerived(const std::filesystem::path& file, const state::State& state, const std::vector<DerivedField>& fields,
                   const NodalFields& nodal);

@@ -46,10 +46,14 @@ Handle typeOf(const Element& element, bool inFile)
     switch (element.kind)
     {
     case Element::Kind::real:
-        return {H5Tcopy(inFile ? (wide ? H5T_IEEE_F64LE : H5T_IEEE_F32LE) : wide ? H5T_NATIVE_DOUBLE : H5T_NATIVE_FLOAT),
+        return {H5Tcopy(inFile ? (wide ? H5T_IEEE_F64LE : H5T_IEEE_F32LE)
+                        : wide ? H5T_NATIVE_DOUBLE
+                               : H5T_NATIVE_FLOAT),
                 H5Tclose};
     case Element::Kind::integer:
-        return {H5Tcopy(inFile ? (wide ? H5T_STD_I64LE : H5T_STD_I32LE) : wide ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32),
+        return {H5Tcopy(inFile ? (wide ? H5T_STD_I64LE : H5T_STD_I32LE)
+                        : wide ? H5T_NATIVE_INT64
+                               : H5T_NATIVE_INT32),
                 H5Tclose};
     default:
         Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -92,12 +96,14 @@ std::vector<std::string> pathsDownTo(const std::string& name)
     return out;
 }
 
-/// File access in which closing the file closes everything in it.
+/// File access in which closing the file closes everything in it, and what is written is in the format of HDF5 1.8,
+/// whose superblock, headers and heaps carry checksums: damage is noticed before the library walks through it.
 Handle strongAccess()
 {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // our messages, not HDF5's
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
     return access;
 }
 
@@ -123,13 +129,11 @@ Handle openAttribute(hid_t file, const std::string& object, const std::string& n
 
 Hdf5File::Hdf5File(std::filesystem::path file, std::int64_t handle)
     : path_(std::move(file)), file_(handle), allowance_(16 * lengthOnDisk(path_))
-{
-}
+{}
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), allowance_(other.allowance_)
-{
-}
+{}
 
 Hdf5File::~Hdf5File()
 {
@@ -247,8 +251,8 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
     if (attribute.empty())
     {
         makeGroup(object.substr(0, object.rfind('/')));
-        const Handle dataset(
-            H5Dcreate2(file_, object.c_str(), onDisk, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+        const Handle dataset(H5Dcreate2(file_, object.c_str(), onDisk, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Dclose);
         if (!dataset.good() || (any && H5Dwrite(dataset, inMemory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail(object, "cannot be written (disk full, or already there)");
         return;

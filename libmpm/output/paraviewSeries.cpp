@@ -31,8 +31,7 @@ class GridText
   public:
     GridText(const std::string& timeName, const StateSummary& summary)
         : file_(escaped(timeName) + "/" + stateFileName), summary_(summary), n_(summary.particles)
-    {
-    }
+    {}
 
     std::string text(Picture picture)
     {
@@ -60,14 +59,15 @@ class GridText
 
     std::string item(const std::string& dimensions, const char* type, int precision, const std::string& dataset) const
     {
-        return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}</DataItem>",
-                           dimensions, type, precision, file_, escaped(dataset));
+        return fmt::format(
+            "<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}</DataItem>",
+            dimensions, type, precision, file_, escaped(dataset));
     }
 
     void points()
     {
-        add("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">\n{}\n</Topology>\n", n_,
-            item(std::to_string(n_), "Int", 4, "/visualisation/connectivity"));
+        add("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">\n{}\n</Topology>\n",
+            n_, item(std::to_string(n_), "Int", 4, "/visualisation/connectivity"));
         add("<Geometry GeometryType=\"XYZ\">\n{}\n</Geometry>\n",
             item(fmt::format("{} 3", n_), "Float", 4, "/visualisation/points"));
     }
@@ -84,8 +84,8 @@ class GridText
 
     void attribute(const std::string& centre, const std::string& name, const char* type, const std::string& data)
     {
-        add("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n{}\n</Attribute>\n", escaped(name), type, centre,
-            data);
+        add("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n{}\n</Attribute>\n", escaped(name), type,
+            centre, data);
     }
 
     void component(const std::string& centre, const std::string& name, const std::string& group)

@@ -42,8 +42,8 @@ std::string encoded(const std::string& name)
 {
     std::string out;
     for (char c : name)
-        out += c == '/' || c == '%' || (c == '.' && name.size() == 1) ? fmt::format("%{:02X}", int(c))
-                                                                      : std::string(1, c);
+        out +=
+            c == '/' || c == '%' || (c == '.' && name.size() == 1) ? fmt::format("%{:02X}", int(c)) : std::string(1, c);
     return out;
 }
 

@@ -7,9 +7,9 @@
 /// their edges. Every deformed domain x_p +- F l0/2 is cut into equal parts along its edges, fine enough that a part is
 /// at most w/8 wide, and each part goes to the column that holds its centre: particle q has the mass m_qc in column c,
 /// spread evenly over the heights its parts there reach. M_c(y) is the mass above y in column c. At a particle,
-/// sigma_o is the mean over its columns weighted by m_pc, at the height of its centre (half of its own mass counts, so a
-/// level layer of lattice particles has sigma_o = - rho g d exactly). At a point it is taken from the column that holds
-/// it, on an edge as the mean of the columns beside it that hold material.
+/// sigma_o is the mean over its columns weighted by m_pc, at the height of its centre (half of its own mass counts, so
+/// a level layer of lattice particles has sigma_o = - rho g d exactly). At a point it is taken from the column that
+/// holds it, on an edge as the mean of the columns beside it that hold material.
 ///
 /// Gravity must point along one axis; "above" is against it. Verified in tests/unit/smoothing.cpp.
 #include "state/state.hpp"
@@ -27,7 +27,7 @@ class Overburden
     /// Is there an overburden: gravity along one axis?
     static bool defined(const Vector3& gravity, int dim);
 
-    int axis() const { return up_; } ///< the vertical axis, also the stress component that overburden stands for
+    int axis() const { return up_; }  ///< the vertical axis, also the stress component that overburden stands for
     double atParticle(Index p) const; ///< [Pa], negative under load
     double atPoint(const Vector3& x) const;
 

@@ -56,7 +56,8 @@ StressQuality stressQuality(const state::State& state, const WeightTable& table,
 {
     const auto& p = state.particles;
     StressQuality quality;
-    std::vector<double> atParticles(std::size_t(p.size()), std::nan("")), atNodes(smoothed.nodePosition.size(), std::nan(""));
+    std::vector<double> atParticles(std::size_t(p.size()), std::nan("")),
+        atNodes(smoothed.nodePosition.size(), std::nan(""));
     if (Overburden::defined(gravity, p.dim))
     {
         const Overburden above(state, gravity);

@@ -1,7 +1,8 @@
 #pragma once
 /// How physical a stress field is: numbers for nodal, raw (particle) and smoothed vertical stress.
-///     N       = RMS(raw - smoothed) / RMS(smoothed)         0.1 for an elastic body, above 1 where stresses are erratic
-///     N floor = the same for the overburden in place of the raw stress: what Eqs. 11 and 12 alone change in a field
+///     N       = RMS(raw - smoothed) / RMS(smoothed)         0.1 for an elastic body, above 1 where stresses are
+///     erratic N floor = the same for the overburden in place of the raw stress: what Eqs. 11 and 12 alone change in a
+///     field
 ///               that is not erratic at all
 ///     error, correlation: root mean square difference and Pearson's correlation with overburden
 /// Means run over particles (over nodes that carry mass for nodal), each counted once. A correlation with a constant is

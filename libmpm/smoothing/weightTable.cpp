@@ -13,8 +13,8 @@ namespace mpm::smoothing
 {
 namespace
 {
-/// Half lengths over h of one chunk's domains, as the solver takes them: initial edges or edges that follow the stretch,
-/// not wider than the support allows.
+/// Half lengths over h of one chunk's domains, as the solver takes them: initial edges or edges that follow the
+/// stretch, not wider than the support allows.
 template <int dim, class Shape>
 void domains(const state::Particles& p, double h, Index first, double (&lambda)[dim][lanes])
 {
@@ -27,7 +27,8 @@ void domains(const state::Particles& p, double h, Index first, double (&lambda)[
         for (int l = 0; l < lanes; ++l)
         {
             const double half = 0.5 * p.length0[std::size_t(a)][std::size_t(first + l)] / h;
-            lambda[a][l] = std::min(Shape::followsStretch ? 1.0 : 0.5, Shape::followsStretch ? half * stretch[a][l] : half);
+            lambda[a][l] =
+                std::min(Shape::followsStretch ? 1.0 : 0.5, Shape::followsStretch ? half * stretch[a][l] : half);
         }
 }
 
@@ -43,7 +44,8 @@ class NodeBox
         {
             const auto& x = p.x[std::size_t(a)];
             const auto [low, high] = std::minmax_element(x.begin(), x.begin() + p.size());
-            first_[std::size_t(a)] = shape::firstNode<Shape::nodes>(*low, grid_.origin[std::size_t(a)], 1 / grid_.h) - 1;
+            first_[std::size_t(a)] =
+                shape::firstNode<Shape::nodes>(*low, grid_.origin[std::size_t(a)], 1 / grid_.h) - 1;
             count_[std::size_t(a)] = shape::firstNode<Shape::nodes>(*high, grid_.origin[std::size_t(a)], 1 / grid_.h) +
                                      Shape::nodes + 1 - first_[std::size_t(a)];
         }
@@ -91,7 +93,8 @@ WeightTable fill(const state::State& state)
     {
         domains<dim, Shape>(p, grid.h, first, lambda);
         for (int a = 0; a < dim; ++a)
-            Shape::evaluate(p.x[std::size_t(a)].data() + first, lambda[a], grid.origin[std::size_t(a)], 1 / grid.h, w[a]);
+            Shape::evaluate(p.x[std::size_t(a)].data() + first, lambda[a], grid.origin[std::size_t(a)], 1 / grid.h,
+                            w[a]);
         for (int l = 0; l < std::min<Index>(lanes, p.size() - first); ++l)
         {
             for (int k = 0; k < (dim == 3 ? n : 1); ++k)

@@ -241,10 +241,10 @@ class SmoothStress(unittest.TestCase):
             file["mass"] = np.ones(80)
         path = self.case / "1" / "state.h5"
 
-        def replace(make):
+        def replace(make, name="mass"):
             write_state(path, 1.0, (10, 8))
             with h5py.File(path, "a") as file:
-                del file["particles/mass"]
+                del file["particles/" + name]
                 make(file["particles"])
 
         replace(lambda group: group.__setitem__("mass", h5py.ExternalLink(str(secret), "/mass")))
@@ -261,6 +261,8 @@ class SmoothStress(unittest.TestCase):
         self.refused("-latestTime", says=["/particles/mass", "never written"])
         replace(lambda group: group.create_dataset("mass", (1 << 50,), "<f8", chunks=(1 << 20,)))
         self.refused("-latestTime", says=["/particles/mass", "80 expected"])
+        replace(lambda group: group.create_dataset("position", (1 << 50, 2), "<f8", chunks=(1 << 16, 2)), "position")
+        self.refused("-latestTime", says=["/particles/position", "claims more values than the file's"])
         replace(lambda group: group.create_dataset("mass", data=["heavy"] * 80))
         self.refused("-latestTime", says=["/particles/mass", "64-bit float expected"])
         write_state(path, 1.0, (10, 8))

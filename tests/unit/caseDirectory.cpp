@@ -1,5 +1,5 @@
-#include "base/error.hpp"
 #include "case/caseDirectory.hpp"
+#include "base/error.hpp"
 #include "output/stateFile.hpp"
 #include "support/sampleState.hpp"
 #include "support/temporaryFolder.hpp"
@@ -58,7 +58,7 @@ TEST_CASE("times are the numbered folders with a state, in order of their value"
 {
     TemporaryFolder folder;
     makeCase(folder.path(), {"10", "2", "0", "0.25", "1e-05"});
-    fs::create_directories(folder / "3");        // no state inside
+    fs::create_directories(folder / "3"); // no state inside
     fs::create_directories(folder / "nan");
     fs::create_directories(folder / "0x10");
     fs::create_directories(folder / "1.0backup");
@@ -91,7 +91,8 @@ TEST_CASE("ranges select as in OpenFOAM")
     CHECK(names(here.selectTimes(std::string("0"), false)) == Names{"0"});
     CHECK(here.selectTimes(std::nullopt, false).size() == 6);
 
-    CHECK_THROWS_WITH(here.selectTimes("100"), Catch::Contains("no time near 100") && Catch::Contains("0, 0.5, 1, 1.5"));
+    CHECK_THROWS_WITH(here.selectTimes("100"),
+                      Catch::Contains("no time near 100") && Catch::Contains("0, 0.5, 1, 1.5"));
     CHECK_THROWS_WITH(here.selectTimes("0,3:"), Catch::Contains("no time in 3:") && Catch::Contains("2.5"));
     CHECK_THROWS_WITH(here.selectTimes("0.6:0.9"), Catch::Contains("no time in"));
     for (const char* wrong : {"", ",", "a", "1:b", "2:1", "1:2:3", "0..1"})
@@ -114,8 +115,8 @@ TEST_CASE("a case without times says so")
 TEST_CASE("what is missing is named with its place and what a case is made of")
 {
     TemporaryFolder folder;
-    CHECK_THROWS_WITH(CaseDirectory(folder / "no"), Catch::Contains("/no: no such case folder") &&
-                                                        Catch::Contains("controlDict"));
+    CHECK_THROWS_WITH(CaseDirectory(folder / "no"),
+                      Catch::Contains("/no: no such case folder") && Catch::Contains("controlDict"));
     CHECK_THROWS_WITH(CaseDirectory(folder.path()), Catch::Contains("neither system/ nor constant/"));
     makeCase(folder.path(), {});
     CHECK_THROWS_WITH(CaseDirectory(folder / "system/controlDict"), Catch::Contains("is not a folder"));

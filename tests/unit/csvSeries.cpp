@@ -1,5 +1,5 @@
-#include "base/error.hpp"
 #include "output/csvSeries.hpp"
+#include "base/error.hpp"
 #include "support/fileContents.hpp"
 #include "support/fullDisk.hpp"
 #include "support/temporaryFolder.hpp"

@@ -149,8 +149,7 @@ TEST_CASE("nodal stress is weighted by mass")
     CHECK(at(0, 0) == Approx(nearFirst).epsilon(1e-13));
     CHECK(at(1, 1) == Approx(nearSecond).epsilon(1e-13));
     CHECK(at(1, 0) == Approx(between).epsilon(1e-13));
-    CHECK(out.smoothed[1][0] ==
-          Approx(0.81 * nearFirst + 0.18 * between + 0.01 * nearSecond).epsilon(1e-13));
+    CHECK(out.smoothed[1][0] == Approx(0.81 * nearFirst + 0.18 * between + 0.01 * nearSecond).epsilon(1e-13));
 }
 
 TEST_CASE("the table of a shape is the solver's: linear equals bilinear, wide domains reach further, rows sum to one")
@@ -230,7 +229,8 @@ TEST_CASE("overburden of a level layer is rho g depth, at particles and nodes")
     for (Index i = 0; i < state.particles.size(); ++i)
         CHECK(above.atParticle(i) == Approx(-rho * g * (5 - state.particles.x[1][std::size_t(i)])).epsilon(1e-12));
     CHECK(above.atPoint({1, 2, 0}) == Approx(-rho * g * 3).epsilon(1e-12));
-    CHECK(above.atPoint({0, 2, 0}) == Approx(-rho * g * 3).epsilon(1e-12)); // at the side: from the column that is there
+    CHECK(above.atPoint({0, 2, 0}) ==
+          Approx(-rho * g * 3).epsilon(1e-12)); // at the side: from the column that is there
     CHECK(above.atPoint({1, 6, 0}) == 0);
     CHECK(above.atPoint({-1, 2, 0}) == 0);
     const Overburden below(state, {0, g, 0}); // gravity upwards
