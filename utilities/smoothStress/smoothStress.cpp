@@ -79,6 +79,8 @@ int main(int argc, char** argv)
         if (options.dryRun)
             return 0;
         here.requireWritable();
+        for (const auto& time : times) // a broken state is found before anything is written
+            output::readState(here.statePath(time.name));
         output::CsvSeries csv(here.postProcessing() / "smoothStress.csv", columns);
         Table table({"time", "particles", "min nodal", "min raw", "min smoothed", "error nodal", "error raw",
                      "error smoothed", "corr nodal", "corr raw", "corr smoothed", "N", "N floor"});
