@@ -129,6 +129,30 @@ Plane planeOfPatch(const Dictionary& all, const state::SurfacePatch& patch, int 
                                  patch.name));
 }
 
+/// A wall no particle can reach would be ignored, one with its normal into the soil would hold all of it.
+void refuseUselessWall(const Dictionary& all, const nodal::Wall& wall, const state::State& state)
+{
+    const auto& grid = state.grid;
+    const auto axis = std::size_t(wall.axis);
+    const double position = grid.origin[axis] + grid.h * double(wall.plane);
+    if (wall.plane < 0 || wall.plane > grid.cells[axis])
+        throw InputError(all.where(wall.name),
+                         fmt::format("{}: found a wall at {} = {:g}, outside the grid; allowed: {:g} to {:g} (system/gridDict)",
+                                     wall.name, axisNames[axis], position, grid.origin[axis], grid.upper(wall.axis)));
+    const auto& p = state.particles;
+    const auto behind = [&](Index i) { return wall.side * (p.x[axis][std::size_t(i)] - position) > grid.h; };
+    Index count = 0, first = -1;
+    for (Index i = 0; i < p.size(); ++i)
+        if (behind(i) && count++ == 0)
+            first = i;
+    if (count > 0)
+        throw InputError(all.where(wall.name),
+                         fmt::format("{}: found {} of {} particles behind the wall at {} = {:g}, particle {} at {:g} the first; "
+                                     "allowed: a normal that points out of the soil, and a position beside it",
+                                     wall.name, count, p.size(), axisNames[axis], position, p.id[std::size_t(first)],
+                                     p.x[axis][std::size_t(first)]));
+}
+
 nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::string& name, const std::string& type,
                      const state::State& state)
 {
@@ -164,6 +188,7 @@ nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::stri
                                      name, axisNames[plane.axis], plane.position, at(std::floor(index)),
                                      at(std::floor(index) + 1)));
     }
+    refuseUselessWall(all, wall, state);
     return wall;
 }
 } // namespace

@@ -27,7 +27,7 @@ RunTime::RunTime(const Dictionary& d)
     maxDeltaT_ = d.get<double>({"maxDeltaT", "largest time step", unit::time, Bound::positive(), 1e30});
     writeControl_ = d.choose("writeControl", "when states are written",
                              {{"timeStep", "every writeInterval steps"},
-                              {"runTime", "at the first step past every writeInterval seconds"},
+                              {"runTime", "at the step that reaches every writeInterval seconds"},
                               {"adjustableRunTime", "steps are shortened to land on every writeInterval seconds"}},
                              "runTime");
     writeInterval_ = writeControl_ == "timeStep"
@@ -42,7 +42,7 @@ RunTime::RunTime(const Dictionary& d)
 
 bool RunTime::done(double time) const
 {
-    return time > endTime_ - 0.5 * (adjust_ ? 1e-9 * deltaT_ : deltaT_);
+    return time > endTime_ - (landing() ? 1e-9 * deltaT_ : 0.5 * deltaT_);
 }
 
 double RunTime::nextWriteTime(double time) const
@@ -52,12 +52,19 @@ double RunTime::nextWriteTime(double time) const
     return std::min(endTime_, writeInterval_ * (std::floor(time / writeInterval_ + 1e-9) + 1));
 }
 
+bool RunTime::landing() const
+{
+    return adjust_ || writeControl_ == "adjustableRunTime";
+}
+
 double RunTime::nextStep(double time, double limit) const
 {
-    if (!adjust_ && writeControl_ != "adjustableRunTime")
+    if (!landing())
         return deltaT_;
     const double wanted = adjust_ ? std::min(limit, maxDeltaT_) : deltaT_;
     const double remaining = nextWriteTime(time) - time;
+    if (!(remaining > 0))
+        return wanted; // the run is over
     return remaining / std::max(1.0, std::ceil(remaining / wanted - 1e-9));
 }
 
@@ -67,7 +74,9 @@ bool RunTime::writeNow(double before, double after, Index step) const
         return true;
     if (writeControl_ == "timeStep")
         return step % Index(writeInterval_) == 0;
-    const double half = 0.5 * (after - before);
-    return std::floor((after + half) / writeInterval_) > std::floor((before + half) / writeInterval_);
+    // Equal steps: the one nearest to the write time. Steps of changing size: every write time falls into just one of
+    // them, whatever their sizes; the margin is for sums of steps that should land on it.
+    const double margin = landing() ? 1e-9 * writeInterval_ : 0.5 * deltaT_;
+    return std::floor((after + margin) / writeInterval_) > std::floor((before + margin) / writeInterval_);
 }
 } // namespace mpm::cases

@@ -9,7 +9,8 @@
 ///     adjustTimeStep   no;             // yes: (c_p + |v|) deltaT/h <= maxCo and 0.9 of the stability limit
 ///     maxCo            0.5;            // [-]
 ///     maxDeltaT        1e30;           // [s]
-///     writeControl     runTime;        // timeStep | runTime | adjustableRunTime (steps land on write times)
+///     writeControl     runTime;        // timeStep | runTime (fixed deltaT: the nearest step, otherwise the first step
+///                                      // past it) | adjustableRunTime (steps are shortened to land on write times)
 ///     writeInterval    0.25;           // [s], or steps
 ///     purgeWrite       0;              // keep the last n written times; 0 keeps all
 ///     timePrecision    6;              // digits in folder names
@@ -53,6 +54,7 @@ class RunTime
 
   private:
     double nextWriteTime(double time) const;
+    bool landing() const; ///< are steps shortened to end at given times?
 
     Start start_;
     double startTime_, endTime_, deltaT_, maxCo_, maxDeltaT_;

@@ -48,7 +48,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options) : fold
     control.rejectUnread();
     const TimeFolder start = startFolder();
     lastStored_ = start.name;
-    refuseLaterTimes(start);
+    laterTimes_ = laterTimes(start);
     state_ = output::readState(folder.statePath(start.name));
     if (state_.particles.size() == 0)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
@@ -57,7 +57,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options) : fold
     omp_set_num_threads(options.threadCount());
     stepper_ = makeStepper(scene_.shape, state_, scene_.scene);
     stepping::beginLedger(state_, scene_.scene.materials);
-    limit_ = stepping::stabilityLimit(*stepper_, state_, scene_.scene, shapeHasDomain(scene_.shape));
+    limit_ = stabilityLimit();
     if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT)
         throw InputError(control.where("deltaT"),
                          fmt::format("deltaT: found {:g} s, c_p deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.2f}) for {} "
@@ -87,21 +87,17 @@ TimeFolder SolverRun::startFolder() const
 }
 
 /// Going on from an earlier time would mix two runs: later times must be given up on purpose.
-void SolverRun::refuseLaterTimes(const TimeFolder& start) const
+std::vector<std::string> SolverRun::laterTimes(const TimeFolder& start) const
 {
     std::vector<std::string> later;
     for (const auto& time : folder_.times())
         if (time.value > start.value)
             later.push_back(time.name);
-    if (later.empty() || runTime_->start() == RunTime::Start::latest)
-        return;
-    if (!options_.overwrite)
+    if (!later.empty() && !options_.overwrite)
         throw InputError(fmt::format("{}: found stored times after the start at {}: {}; allowed: startFrom latestTime to go "
                                      "on from the last, or -overwrite to remove them",
                                      folder_.folder().string(), start.name, joinWords(later, " and ")));
-    if (!options_.dryRun)
-        for (const auto& name : later)
-            folder_.removeTime(name);
+    return later;
 }
 
 void SolverRun::banner() const
@@ -132,8 +128,12 @@ void SolverRun::banner() const
         line("splitting", fmt::format("{} at {:g} seeding spacings, every {} steps",
                                       s.splitting->mode == splitting::Mode::fourWay ? "fourWay" : "stretched",
                                       s.splitting->threshold, s.splitting->interval));
-    line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
-                             runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
+    if (done())
+        line("time", fmt::format("{:g} s; endTime {:g} s is reached, there is nothing to do", state_.time,
+                                 runTime_->endTime()));
+    else
+        line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
+                                 runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
     line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT, limit_.courant,
                                   limit_.waveSpeed * stepSize() / state_.grid.h));
     line("threads", fmt::format("{}, {} slabs", options_.threadCount(), state_.slabs));
@@ -143,12 +143,17 @@ void SolverRun::openOutput()
 {
     folder_.requireWritable();
     const bool fresh = state_.step == 0;
-    const auto continueAt = fresh ? std::nullopt : std::optional(state_.time);
+    // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
+    const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();
+    const auto continueAt =
+        fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
     const auto out = folder_.postProcessing();
     history_ = std::make_unique<output::CsvSeries>(out / "history.csv", stepping::historyColumns(), continueAt);
     budget_ = std::make_unique<output::CsvSeries>(out / "energyBudget.csv", stepping::budgetColumns(), continueAt);
     if (recorder_)
         recorder_->open(out / "strainPaths.csv", state_, continueAt);
+    for (const auto& name : laterTimes_)
+        folder_.removeTime(name);
     if (fresh)
         writeRow();
     state_.provenance["version"] = projectVersion();
@@ -157,6 +162,11 @@ void SolverRun::openOutput()
     state_.provenance["instructionSet"] = instructionSet();
     state_.provenance["dictionaries"] = scene_.dictionaries;
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
+}
+
+stepping::StabilityLimit SolverRun::stabilityLimit() const
+{
+    return stepping::stabilityLimit(*stepper_, state_, scene_.scene, shapeHasDomain(scene_.shape));
 }
 
 /// maxCo bounds the Courant number with the particles' own speed; the stability limit is kept with a margin.
@@ -173,6 +183,8 @@ void SolverRun::step()
 {
     timeBefore_ = state_.time;
     const double begin = now();
+    if (runTime_->adjustable() && stepping::limitFollowsMass(scene_.scene, shapeHasDomain(scene_.shape)))
+        limit_ = stabilityLimit();
     if (recorder_)
         recorder_->before(state_);
     try
@@ -218,7 +230,10 @@ void SolverRun::writeRow()
 
 void SolverRun::writeState()
 {
-    const auto name = timeName(state_.time, runTime_->timePrecision());
+    // two times never share a folder: more digits where timePrecision is not enough to tell them apart
+    auto name = timeName(state_.time, runTime_->timePrecision());
+    for (int digits = runTime_->timePrecision() + 1; name == lastStored_ && digits <= 17; ++digits)
+        name = timeName(state_.time, digits);
     output::writeState(folder_.timePath(name), state_);
     lastStored_ = name;
     written_.push_back(name);

@@ -38,7 +38,8 @@ class SolverRun
 
   private:
     TimeFolder startFolder() const;
-    void refuseLaterTimes(const TimeFolder& start) const;
+    std::vector<std::string> laterTimes(const TimeFolder& start) const;
+    stepping::StabilityLimit stabilityLimit() const;
     double stepSize() const;
     void writeRow();
     void writeState();
@@ -55,6 +56,7 @@ class SolverRun
     std::unique_ptr<output::CsvSeries> history_, budget_;
     std::unique_ptr<Progress> progress_;
     std::string lastStored_;
+    std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     std::vector<std::string> written_;
     double timeBefore_ = 0, startedAt_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double seconds_ = 0, outputSeconds_ = 0;

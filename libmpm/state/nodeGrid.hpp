@@ -7,7 +7,6 @@
 #include "base/types.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 namespace mpm::state
@@ -37,7 +36,7 @@ struct NodeWindow
         if (nodes.size() < need)
             nodes.resize(need + need / 8);
     }
-    void clear() { std::memset(static_cast<void*>(nodes.data()), 0, std::size_t(n[0] * n[1] * n[2]) * sizeof(Record)); }
+    void clear() { std::fill_n(nodes.data(), std::size_t(n[0] * n[1] * n[2]), Record{}); }
 };
 
 struct NodeGrid
@@ -58,12 +57,11 @@ struct NodeGrid
         return {begin, std::max(begin, end)};
     }
 
-    /// common row = sum of the slabs' rows, in slab order.
+    /// common row = sum of the slabs' rows, in slab order; zero where no slab reaches.
     void sumRow(Index j, Index k)
     {
-        const auto [begin, end] = touched(j, k);
+        std::fill_n(common.row(j, k), std::size_t(common.n[0]), Record{});
         Record* out = common.row(j, k) - common.lo[0];
-        std::fill(out + begin, out + end, Record{});
         for (const auto& s : slabs)
             if (s.n[0] > 0 && j >= s.lo[1] && j < s.lo[1] + s.n[1] && k >= s.lo[2] && k < s.lo[2] + s.n[2])
             {

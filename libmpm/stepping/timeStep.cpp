@@ -24,12 +24,16 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
     return fastest;
 }
 
+bool limitFollowsMass(const Scene& scene, bool hasDomain)
+{
+    return scene.stressUpdate == StressUpdate::USL && !hasDomain;
+}
+
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool hasDomain)
 {
     StabilityLimit limit;
-    const bool needsMass = scene.stressUpdate == StressUpdate::USL && !hasDomain;
-    limit.courant =
-        criticalCourant(hasDomain, scene.stressUpdate, needsMass ? stepper.smallestNodalMassFraction() : 1.0);
+    limit.courant = criticalCourant(hasDomain, scene.stressUpdate,
+                                    limitFollowsMass(scene, hasDomain) ? stepper.smallestNodalMassFraction() : 1.0);
     limit.waveSpeed = fastestWave(state, scene.materials);
     limit.deltaT = limit.courant * state.grid.h / limit.waveSpeed;
     return limit;

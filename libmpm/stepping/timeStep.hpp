@@ -28,6 +28,9 @@ struct StabilityLimit
     double deltaT = 0;    ///< bound of dt [s]
 };
 
+/// Does the bound change as particles move? (USL with hat functions.)
+bool limitFollowsMass(const Scene& scene, bool hasDomain);
+
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool hasDomain);
 
 /// "USF", "USL", "MUSL".

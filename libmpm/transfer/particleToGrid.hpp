@@ -16,11 +16,14 @@ enum class Project
 
 template <int dim, int n>
 inline constexpr int supportNodes = dim == 2 ? n * n : n * n * n;
+/// Records of all nodes of a support.
+template <int dim, int n>
+using Support = Record[supportNodes<dim, n>];
 
 /// Adds one particle's records to the accumulated support.
 template <int n, bool forces>
 inline void addToSupport(const shape::AxisWeights<n> (&w)[2], int l, const Record& a, const Record (&b)[3],
-                         Record (&sum)[n * n])
+                         Support<2, n>& sum)
 {
     for (int j = 0; j < n; ++j)
     {
@@ -40,7 +43,7 @@ inline void addToSupport(const shape::AxisWeights<n> (&w)[2], int l, const Recor
 
 template <int n, bool forces>
 inline void addToSupport(const shape::AxisWeights<n> (&w)[3], int l, const Record& a, const Record (&b)[3],
-                         Record (&sum)[n * n * n])
+                         Support<3, n>& sum)
 {
     for (int k = 0; k < n; ++k)
     {
@@ -72,7 +75,7 @@ inline void addToSupport(const shape::AxisWeights<n> (&w)[3], int l, const Recor
 
 /// Adds a summed support to the window and clears it.
 template <int dim, int n>
-inline void flushSupport(Record (&sum)[supportNodes<dim, n>], Record* first, const state::NodeWindow& window)
+inline void flushSupport(Support<dim, n>& sum, Record* first, const state::NodeWindow& window)
 {
     const Index nx = window.n[0], nxy = window.n[0] * window.n[1];
     for (int k = 0; k < (dim == 3 ? n : 1); ++k)
@@ -136,7 +139,7 @@ void scatterChunk(const ChunkWeights<dim, Shape>& w, const ChunkRecords<dim>& re
     constexpr int n = Shape::nodes;
     alignas(64) std::int64_t offset[lanes];
     w.offsets(window, offset);
-    Record sum[supportNodes<dim, n>] = {};
+    Support<dim, n> sum = {};
     std::int64_t current = offset[0];
     for (int l = 0; l < count; ++l)
     {
