@@ -154,6 +154,12 @@ class Bootstrap(unittest.TestCase):
         self.assertEqual(self.calls(), ["begin", "end"] * 2)  # one configures and builds, the other finds it done
         self.assertEqual(sum("Waiting for another etc/bootstrap" in text for text in outputs), 1)
 
+    def test_a_build_of_ones_own_is_left_alone(self):
+        self.install_everything()
+        code, out, _ = self.bootstrap(MPM_BUILD_DIR="/elsewhere/build-asan")
+        self.assertEqual((code, self.calls()), (0, []))
+        self.assertIn("/elsewhere/build-asan as it is", out)
+
     def test_unknown_option_is_an_error(self):
         code, _, err = self.bootstrap("--packges-only")
         self.assertEqual(code, 1)
