@@ -1,6 +1,7 @@
 """etc/bootstrap on machines made of stand-in tools: a Debian that lacks packages, other systems, users without rights."""
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -63,7 +64,9 @@ class Bootstrap(unittest.TestCase):
     def test_installs_what_is_missing_and_says_which(self):
         code, out, _ = self.bootstrap("--packages-only")
         self.assertEqual(code, 0)
-        self.assertIn("Installing 20 packages: g++ make cmake", out)
+        count, names = re.fullmatch(r"Installing (\d+) packages: (.*)\n", out).groups()
+        self.assertEqual(int(count), len(names.split()))
+        self.assertTrue({"g++", "cmake", "libeigen3-dev", "libgmsh-dev"} <= set(names.split()))
         update, install = self.calls()
         self.assertTrue(update.endswith(" update"))
         self.assertIn(" install ", install)
