@@ -61,6 +61,10 @@ class ShellHelpers(unittest.TestCase):
         self.assertTrue(out.startswith(f"{self.project}/build/bin:"), out)
         self.assertEqual(out.count(f"{self.project}/build/bin"), 1)
 
+    def test_a_build_of_ones_own(self):
+        _, out, _ = self.shell(f". {self.project}/etc/bashrc; echo $PATH", MPM_BUILD_DIR="/elsewhere/build-asan")
+        self.assertTrue(out.startswith(f"/elsewhere/build-asan/bin:{self.project}/etc:"), out)
+
     def complete(self, *words):
         quoted = " ".join(f"'{word}'" for word in words)
         code, out, err = self.shell(
