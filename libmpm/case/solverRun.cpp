@@ -4,7 +4,6 @@
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
-#include "output/paraviewSeries.hpp"
 #include "output/stateFile.hpp"
 
 #include <chrono>
@@ -40,7 +39,8 @@ void line(const std::string& what, const std::string& text)
 }
 } // namespace
 
-SolverRun::SolverRun(const CaseDirectory& folder, const Options& options) : folder_(folder), options_(options)
+SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
+    : folder_(folder), options_(options), series_(folder.folder(), folder.name())
 {
     const auto control = dictionary::Dictionary::readFile(folder.dictionaryPath("system/controlDict"));
     runTime_.emplace(control);
@@ -226,7 +226,7 @@ void SolverRun::writeState()
     std::vector<std::string> names;
     for (const auto& time : folder_.times())
         names.push_back(time.name);
-    output::writeParaviewSeries(folder_.folder(), folder_.name(), names);
+    series_.write(names);
 }
 
 void SolverRun::warnings() const

@@ -9,6 +9,7 @@
 #include "case/readScene.hpp"
 #include "case/runTime.hpp"
 #include "output/csvSeries.hpp"
+#include "output/paraviewSeries.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/timeStep.hpp"
 
@@ -55,6 +56,7 @@ class SolverRun
     std::unique_ptr<output::CsvSeries> history_, budget_;
     std::unique_ptr<Progress> progress_;
     std::string lastStored_;
+    output::ParaviewSeries series_;
     std::vector<std::string> written_;
     double timeBefore_ = 0, startedAt_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double seconds_ = 0, outputSeconds_ = 0;
