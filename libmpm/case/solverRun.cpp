@@ -4,7 +4,6 @@
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
-#include "output/paraviewSeries.hpp"
 #include "output/stateFile.hpp"
 
 #include <chrono>
@@ -40,7 +39,8 @@ void line(const std::string& what, const std::string& text)
 }
 } // namespace
 
-SolverRun::SolverRun(const CaseDirectory& folder, const Options& options) : folder_(folder), options_(options)
+SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
+    : folder_(folder), options_(options), series_(folder.folder(), folder.name())
 {
     const auto control = dictionary::Dictionary::readFile(folder.dictionaryPath("system/controlDict"));
     runTime_.emplace(control);
@@ -241,7 +241,7 @@ void SolverRun::writeState()
     std::vector<std::string> names;
     for (const auto& time : folder_.times())
         names.push_back(time.name);
-    output::writeParaviewSeries(folder_.folder(), folder_.name(), names);
+    series_.write(names);
 }
 
 void SolverRun::warnings() const
@@ -253,9 +253,9 @@ void SolverRun::warnings() const
         line("note", fmt::format("{} particle domains are held at {} cells; split them earlier or seed finer",
                                  stepper_->report().cappedDomains, scene_.shape == "cpGIMP" ? "two" : "one"));
     if (ledger.splitsPutOff > 0)
-        line("note", fmt::format("{} splits put off at a wall", ledger.splitsPutOff));
+        line("note", fmt::format("{} particles wait at a wall for their split", ledger.splitsPutOff));
     if (ledger.splitsCapped > 0)
-        line("note", fmt::format("{} splits refused by maxParticles or maxGeneration", ledger.splitsCapped));
+        line("note", fmt::format("{} particles are longer than the threshold, at the cap of maxGeneration or maxParticles", ledger.splitsCapped));
     bool friction = false;
     for (const auto& wall : scene.walls)
         friction = friction || (wall.type == nodal::WallType::friction && wall.mu > 0);

@@ -9,6 +9,7 @@
 #include "case/readScene.hpp"
 #include "case/runTime.hpp"
 #include "output/csvSeries.hpp"
+#include "output/paraviewSeries.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/timeStep.hpp"
 
@@ -57,6 +58,7 @@ class SolverRun
     std::unique_ptr<Progress> progress_;
     std::string lastStored_;
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
+    output::ParaviewSeries series_;
     std::vector<std::string> written_;
     double timeBefore_ = 0, startedAt_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double seconds_ = 0, outputSeconds_ = 0;

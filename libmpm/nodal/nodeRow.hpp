@@ -74,6 +74,7 @@ struct NodeRow
         }
     };
     WallScratch* walls = nullptr;
+    std::vector<Record>* projected = nullptr; ///< the records before the row was solved
 
     static constexpr int velocity = 1;    ///< first lane of v_i
     static constexpr int trial = 1 + dim; ///< first lane of f, then u

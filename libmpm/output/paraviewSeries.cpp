@@ -112,13 +112,33 @@ void writeSeries(const std::filesystem::path& file, Picture picture, const std::
 }
 } // namespace
 
-void writeParaviewSeries(const std::filesystem::path& caseFolder, const std::string& caseName,
-                         const std::vector<std::string>& timeNames)
+ParaviewSeries::ParaviewSeries(std::filesystem::path caseFolder, std::string caseName)
+    : folder_(std::move(caseFolder)), name_(std::move(caseName))
+{}
+
+const StateSummary& ParaviewSeries::summary(const std::string& timeName)
+{
+    const auto file = folder_ / timeName / stateFileName;
+    std::error_code error;
+    const auto changed = std::filesystem::last_write_time(file, error);
+    const auto found = known_.find(timeName);
+    if (!error && found != known_.end() && found->second.changed == changed)
+        return found->second.summary;
+    return (known_[timeName] = {changed, readSummary(file)}).summary;
+}
+
+void ParaviewSeries::write(const std::vector<std::string>& timeNames)
 {
     std::vector<StateSummary> summaries;
     for (const auto& name : timeNames)
-        summaries.push_back(readSummary(caseFolder / name / stateFileName));
-    writeSeries(caseFolder / (caseName + ".xdmf"), Picture::points, timeNames, summaries);
-    writeSeries(caseFolder / (caseName + ".domains.xdmf"), Picture::domains, timeNames, summaries);
+        summaries.push_back(summary(name));
+    writeSeries(folder_ / (name_ + ".xdmf"), Picture::points, timeNames, summaries);
+    writeSeries(folder_ / (name_ + ".domains.xdmf"), Picture::domains, timeNames, summaries);
+}
+
+void writeParaviewSeries(const std::filesystem::path& caseFolder, const std::string& caseName,
+                         const std::vector<std::string>& timeNames)
+{
+    ParaviewSeries(caseFolder, caseName).write(timeNames);
 }
 } // namespace mpm::output

@@ -1,6 +1,7 @@
 #include "splitting/splitParticles.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace mpm::splitting
 {
@@ -26,7 +27,8 @@ Edges deformedEdges(const state::State& s, const Rule& rule, std::size_t i)
             e.vector[k][a] = p.F[a * p.dim + k][i] * p.length0[k][i];
             square += e.vector[k][a] * e.vector[k][a];
         }
-        e.cut[k] = std::sqrt(square) > rule.threshold * s.seedSpacing[k];
+        const double longest = rule.threshold * s.seedSpacing[k];
+        e.cut[k] = square > longest * longest;
         any = any || e.cut[k];
     }
     for (int k = 0; k < p.dim; ++k)
@@ -97,7 +99,11 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
     {
         const std::size_t c = child == 0 ? parent : std::size_t(p.appendCopy(i));
         if (child > 0)
+        {
+            // until the next sort children stand last, in the order of their ids, as (sortKey, id) says
             p.id[c] = s.nextId++;
+            p.sortKey[c] = std::numeric_limits<std::int64_t>::max();
+        }
         int bit = 0;
         Vector3 offset{};
         for (int k = 0; k < p.dim; ++k)
@@ -146,8 +152,8 @@ Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<
         outcome.added += makeChildren(state, i, edges, factor);
         ++outcome.split;
     }
-    state.ledger.splitsPutOff += outcome.putOff;
-    state.ledger.splitsCapped += outcome.capped;
+    state.ledger.splitsPutOff = outcome.putOff;
+    state.ledger.splitsCapped = outcome.capped;
     if (outcome.added > 0)
         state.particles.padLastChunk();
     return outcome;

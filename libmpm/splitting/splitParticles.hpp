@@ -53,6 +53,7 @@ struct Outcome
 };
 
 /// Splits once where the rule asks for it (children are looked at again the next time), in the order of the particles.
-/// Books splits and their losses in the state's ledger. The new particles stand at the end: sort afterwards.
+/// Books splits and their losses in the state's ledger. The new particles stand at the end, in memory and by their sort
+/// key, until the next sort.
 Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers);
 } // namespace mpm::splitting

@@ -34,8 +34,8 @@ struct Ledger
     double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
     Index apexReturns = 0;         ///< particle returns to the apex
     Index splits = 0;              ///< particles split
-    Index splitsPutOff = 0;        ///< splits put off at a wall
-    Index splitsCapped = 0;        ///< splits refused by the caps on size and count
+    Index splitsPutOff = 0;        ///< particles whose split is put off at a wall, at the last look
+    Index splitsCapped = 0;        ///< particles whose split the caps on size and count refuse, at the last look
     Index wallContacts = 0;        ///< nodes and steps at which a friction wall pressed
 };
 

@@ -111,12 +111,13 @@ void ExplicitStepper<dim, Shape>::arrange()
         detail::Clock clock(times_.split);
         changed = splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0;
     }
-    if (changed || state_.step % scene_.sortInterval == 0)
-    {
-        detail::Clock clock(times_.sort);
+    const bool sort = state_.step % scene_.sortInterval == 0;
+    if (!sort && !changed)
+        return;
+    detail::Clock clock(times_.sort);
+    if (sort)
         sortByPosition(state_, Shape::nodes);
-        cutSlabs();
-    }
+    cutSlabs();
 }
 
 template <int dim, class Shape>
@@ -238,6 +239,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
 #pragma omp parallel
     {
         typename nodal::NodeRow<dim>::WallScratch walls;
+        std::vector<Record> projected;
 #pragma omp for schedule(static)
         for (Index r = 0; r < rows; ++r)
         {
@@ -250,6 +252,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
             row.sums = &rowSums_[std::size_t(r)];
             walls.clear();
             row.walls = &walls;
+            row.projected = &projected;
             body(row);
         }
     }
@@ -274,7 +277,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_.common, smallestMass_);
     forEachRow([&](nodal::NodeRow<dim>& row) {
         row.dt = dt;
-        std::vector<Record> force(row.node + row.begin, row.node + row.end);
+        row.projected->assign(row.node + row.begin, row.node + row.end);
         nodal::beginRow(row);
         for (const auto& effect : effects_)
             effect->apply(row);
@@ -284,7 +287,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         nodal::endRow(row, 1 / dt);
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
-                row.sums->forceWork += dt * force[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
+                row.sums->forceWork += dt * (*row.projected)[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
     });
     nodal::NodeSums sums;
     for (const auto& row : rowSums_)

@@ -3,6 +3,7 @@
 #include "output/derivedFields.hpp"
 #include "output/hdf5File.hpp"
 #include "output/ledgerEntries.hpp"
+#include "output/paraviewSeries.hpp"
 #include "support/fileContents.hpp"
 #include "support/fullDisk.hpp"
 #include "support/sampleState.hpp"
@@ -272,4 +273,31 @@ TEST_CASE("derived fields follow the particles by id and end with them")
         CHECK(readDerived(file, state).size() == 2);
         CHECK_FALSE(fs::exists(folder / "1/state.h5.partial"));
     }
+}
+
+TEST_CASE("the series for ParaView follows states that change, come and go")
+{
+    TemporaryFolder folder;
+    writeState(folder / "0", sampleState(2, 10));
+    writeState(folder / "1", sampleState(2, 11));
+    ParaviewSeries series(folder.path(), "sample");
+    series.write({"0", "1"});
+    const auto counts = [&](const std::string& ending) {
+        std::string found;
+        const std::string text = tests::contents(folder / ("sample" + ending));
+        const std::string word = "NumberOfElements=\"";
+        for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+            found += text.substr(at + word.size(), text.find('"', at + word.size()) - at - word.size()) + " ";
+        return found;
+    };
+    CHECK(counts(".xdmf") == "10 11 ");
+    CHECK(counts(".domains.xdmf") == "10 11 ");
+    writeState(folder / "1", sampleState(2, 12));
+    writeState(folder / "2", sampleState(2, 13));
+    series.write({"0", "1", "2"});
+    CHECK(counts(".xdmf") == "10 12 13 ");
+    series.write({"1", "2"});
+    CHECK(counts(".domains.xdmf") == "12 13 ");
+    CHECK_THROWS_AS(series.write({"3"}), InputError);
+    CHECK(counts(".xdmf") == "12 13 ");
 }
