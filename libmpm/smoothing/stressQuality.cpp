@@ -40,13 +40,14 @@ FieldQuality fieldQuality(const std::vector<double>& values, const std::vector<d
     return {*min, *max, std::sqrt(squares / double(values.size())), correlation(values, overburden)};
 }
 
-double relativeDifference(const std::vector<double>& a, const std::vector<double>& b)
+double relativeDifference(const std::vector<double>& a, const std::vector<double>& b, const double* weight)
 {
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
     {
-        difference += (a[i] - b[i]) * (a[i] - b[i]);
-        size += b[i] * b[i];
+        const double w = weight ? weight[i] : 1;
+        difference += w * (a[i] - b[i]) * (a[i] - b[i]);
+        size += w * b[i] * b[i];
     }
     return std::sqrt(difference / size);
 }
@@ -75,6 +76,7 @@ StressQuality stressQuality(const state::State& state, const WeightTable& table,
     quality.raw = fieldQuality(raw, atParticles);
     quality.smoothed = fieldQuality(smooth, atParticles);
     quality.noise = relativeDifference(raw, smooth);
+    quality.noiseByMass = relativeDifference(raw, smooth, p.mass.data());
     quality.noiseFloor = relativeDifference(atParticles, smoothColumns({atParticles.data()}, p, table).smoothed[0]);
     for (std::size_t i = 0; i < smooth.size(); ++i)
         if (std::abs(smooth[i] - atParticles[i]) > std::abs(quality.worstError))

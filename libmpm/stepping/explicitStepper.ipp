@@ -1,46 +1,16 @@
 // Definitions of ExplicitStepper, included by the files that instantiate it.
 #pragma once
+#include "base/clock.hpp"
 #include "base/error.hpp"
-#include "constitutive/kinematics.hpp"
-#include "stepping/explicitStepper.hpp"
+#include "stepping/chunkWork.ipp"
+#include "stepping/nodeWork.ipp"
 
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
 namespace mpm::stepping
 {
-namespace detail
-{
-/// Adds the wall time of its own life to a counter.
-class Clock
-{
-  public:
-    explicit Clock(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
-    ~Clock() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-  private:
-    double& total_;
-    std::chrono::steady_clock::time_point start_;
-};
-} // namespace detail
-
-/// sum V sigma : dEps over the lanes of a chunk.
-template <int dim>
-double workOfStrain(const constitutive::Chunk<dim>& chunk, const double* volume, int count)
-{
-    double work = 0;
-    for (int l = 0; l < count; ++l)
-    {
-        double density = 0;
-        for (int k = 0; k < stressSize<dim>; ++k)
-            density += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
-        work += volume[l] * density;
-    }
-    return work;
-}
-
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
     : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid))
@@ -108,13 +78,13 @@ void ExplicitStepper<dim, Shape>::arrange()
     bool changed = false;
     if (scene_.splitting && state_.step % scene_.splitting->interval == 0)
     {
-        detail::Clock clock(times_.split);
+        Clock clock(times_.split);
         changed = splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0;
     }
     const bool sort = state_.step % scene_.sortInterval == 0;
     if (!sort && !changed)
         return;
-    detail::Clock clock(times_.sort);
+    Clock clock(times_.sort);
     if (sort)
         sortByPosition(state_, Shape::nodes);
     cutSlabs();
@@ -205,7 +175,7 @@ template <int dim, class Shape>
 template <bool forces>
 void ExplicitStepper<dim, Shape>::particleToGrid()
 {
-    detail::Clock clock(times_.toGrid);
+    Clock clock(times_.toGrid);
     const auto& p = state_.particles;
     const int slabs = int(grid_.slabs.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -231,126 +201,11 @@ void ExplicitStepper<dim, Shape>::particleToGrid()
     }
 }
 
-template <int dim, class Shape>
-template <class Body>
-void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
-{
-    const Index rows = grid_.common.rows();
-#pragma omp parallel
-    {
-        typename nodal::NodeRow<dim>::WallScratch walls;
-        std::vector<Record> projected;
-#pragma omp for schedule(static)
-        for (Index r = 0; r < rows; ++r)
-        {
-            nodal::NodeRow<dim> row;
-            row.j = grid_.common.lo[1] + r % grid_.common.n[1];
-            row.k = grid_.common.lo[2] + r / grid_.common.n[1];
-            std::tie(row.begin, row.end) = grid_.touched(row.j, row.k);
-            row.node = grid_.common.row(row.j, row.k) - grid_.common.lo[0];
-            row.smallestMass = smallestMass_;
-            row.sums = &rowSums_[std::size_t(r)];
-            walls.clear();
-            row.walls = &walls;
-            row.projected = &projected;
-            body(row);
-        }
-    }
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
-{
-    for (const auto& wall : walls_)
-        wall.push(row);
-    for (const auto& wall : walls_)
-        wall.rub(row);
-}
-
-/// Sums the slabs, then m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::solveNodes(double dt)
-{
-    detail::Clock clock(times_.nodal);
-    forEachRow([&](nodal::NodeRow<dim>& row) { grid_.sumRow(row.j, row.k); });
-    for (std::size_t k = 0; k < tractions_.size(); ++k)
-        tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_.common, smallestMass_);
-    forEachRow([&](nodal::NodeRow<dim>& row) {
-        row.dt = dt;
-        row.projected->assign(row.node + row.begin, row.node + row.end);
-        nodal::beginRow(row);
-        for (const auto& effect : effects_)
-            effect->apply(row);
-        applyWalls(row);
-        for (const auto& effect : effects_)
-            effect->book(row);
-        nodal::endRow(row, 1 / dt);
-        for (Index i = row.begin; i < row.end; ++i)
-            for (int a = 0; a < dim; ++a)
-                row.sums->forceWork += dt * (*row.projected)[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
-    });
-    nodal::NodeSums sums;
-    for (const auto& row : rowSums_)
-        sums += row;
-    auto& ledger = state_.ledger;
-    ledger.pendingForceWork = sums.forceWork;
-    for (const auto& traction : tractions_)
-        ledger.pendingForceWork -=
-            traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
-    ledger.gravityWork += sums.gravityWork;
-    ledger.frictionDissipation += sums.frictionLoss;
-    ledger.wallLoss += sums.wallLoss;
-    ledger.wallContacts += sums.contacts;
-    ledger.transferLoss += sums.kineticAfter - sums.kineticBefore;
-    for (int a = 0; a < dim; ++a)
-    {
-        ledger.gravityImpulse[a] += sums.gravityImpulse[a];
-        ledger.wallImpulse[a] += sums.wallImpulse[a];
-    }
-}
-
-/// Velocities w that strains are taken from, walls applied: the projected v_i (USF), or the second projection
-/// sum m_p v_p(new) N_ip / m_i (MUSL). They go to lanes 1 + dim; lanes 1.. keep v* in the second case.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
-{
-    detail::Clock clock(times_.nodal);
-    forEachRow([&](nodal::NodeRow<dim>& row) {
-        if (!secondProjection)
-            grid_.sumRow(row.j, row.k);
-        else
-        {
-            for (Index i = row.begin; i < row.end; ++i)
-                for (int a = 0; a < dim; ++a)
-                    row.node[i][1 + dim + a] = 0;
-            for (const auto& s : grid_.slabs)
-                if (s.n[0] > 0 && row.j >= s.lo[1] && row.j < s.lo[1] + s.n[1] && row.k >= s.lo[2] &&
-                    row.k < s.lo[2] + s.n[2])
-                {
-                    const Record* in = s.row(row.j, row.k) - s.lo[0];
-                    for (Index i = s.lo[0]; i < s.lo[0] + s.n[0]; ++i)
-                        for (int a = 0; a < dim; ++a)
-                            row.node[i][1 + dim + a] += in[i][1 + a];
-                }
-        }
-        row.dt = dt;
-        for (Index i = row.begin; i < row.end; ++i)
-        {
-            const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
-            for (int a = 0; a < dim; ++a)
-                row.node[i][1 + dim + a] = inverse * row.node[i][(secondProjection ? 1 + dim : 1) + a];
-        }
-        nodal::NodeSums unbooked;
-        row.sums = &unbooked;
-        applyWalls(row);
-    });
-}
-
 /// METHOD Eqs. 5, 6, 8 and the stress update, as far as `half` asks, over all chunks.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::gridToParticle(double dt, const Half& half)
 {
-    detail::Clock clock(half.strain ? times_.constitutive : times_.toParticles);
+    Clock clock(half.strain ? times_.constitutive : times_.toParticles);
     auto& p = state_.particles;
     const int slabs = int(grid_.slabs.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -388,198 +243,6 @@ void ExplicitStepper<dim, Shape>::gridToParticle(double dt, const Half& half)
         slabSums_[std::size_t(s)] = sums;
     }
     bookParticles(dt, half);
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::gatherInto(const Half& half, const Weights& w, int count,
-                                             transfer::Gathered<dim>& g) const
-{
-    if (half.strain)
-        transfer::gatherChunk<dim, Shape, true>(w, count, grid_.common, g);
-    else
-        transfer::gatherChunk<dim, Shape, false>(w, count, grid_.common, g);
-}
-
-/// v_p += dt sum N a (FLIP); with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::advanceVelocity(Index first, int count, double dt, const transfer::Gathered<dim>& g,
-                                                  SlabSums& sums)
-{
-    auto& p = state_.particles;
-    alignas(64) double vv[lanes] = {};
-    for (int a = 0; a < dim; ++a)
-    {
-        double* v = p.v[a].data() + first;
-        for (int l = 0; l < lanes; ++l)
-            v[l] += dt * g.value[1 + dim + a][l];
-        if (scene_.picRate > 0)
-        {
-            const double alpha = -std::expm1(-scene_.picRate * dt);
-            for (int l = 0; l < lanes; ++l)
-                v[l] += alpha * (g.value[1 + a][l] - v[l]);
-        }
-        for (int l = 0; l < lanes; ++l)
-            vv[l] += v[l] * v[l];
-    }
-    double kinetic = 0;
-    const double* m = p.mass.data() + first;
-    for (int l = 0; l < count; ++l)
-    {
-        kinetic += m[l] * vv[l];
-    }
-    sums.kinetic += 0.5 * kinetic;
-    if (scene_.bodyForce)
-    {
-        alignas(64) double b[3][lanes];
-        scene_.bodyForce->acceleration(p, first, time_, b);
-        for (int a = 0; a < dim; ++a)
-            for (int l = 0; l < count; ++l)
-            {
-                const double end = dt * m[l] * b[a][l] * g.value[1 + a][l];
-                sums.bodyForceEnd += end;
-                sums.bodyForceWork += end - 0.5 * dt * dt * m[l] * b[a][l] * g.value[1 + dim + a][l];
-            }
-    }
-}
-
-/// F, V and stress from the velocity gradient in record lanes `lane`.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::updateStress(Index first, int count, double dt, int lane,
-                                               const transfer::Gathered<dim>& g, SlabSums& sums)
-{
-    auto& p = state_.particles;
-    alignas(64) constitutive::TensorLanes<dim> L, F;
-    alignas(64) double J[lanes];
-    constitutive::Chunk<dim> chunk;
-    chunk.count = count;
-    for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-            for (int l = 0; l < lanes; ++l)
-            {
-                L[a * dim + b][l] = g.gradient[b][lane + a][l];
-                F[a * dim + b][l] = p.F[a * dim + b][std::size_t(first + l)];
-            }
-    for (int k = 0; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            chunk.stress[k][l] = p.stress[k][std::size_t(first + l)];
-
-    const double* volume0 = p.volume0.data() + first;
-    double* volume = p.volume.data() + first;
-    constitutive::strainIncrement(L, dt, chunk.dStrain);
-    if (scene_.stressUpdate != StressUpdate::USL)
-        sums.strainWork += workOfStrain(chunk, volume, count);
-    constitutive::advanceDeformation(L, dt, F);
-    constitutive::determinant(F, J);
-    constitutive::rotateStress(L, dt, chunk.stress);
-    callLaws(first, chunk);
-
-    bool good = true;
-    double smallest = sums.smallestJacobian;
-    for (int l = 0; l < lanes; ++l)
-    {
-        volume[l] = volume0[l] * J[l];
-        good &= (J[l] > 0) & (J[l] < 1e30);
-        smallest = J[l] < smallest ? J[l] : smallest;
-    }
-    if (!good && sums.badParticle < 0)
-        for (int l = 0; l < count; ++l)
-            if (!(J[l] > 0 && J[l] < 1e30))
-            {
-                sums.badParticle = first + l;
-                break;
-            }
-    sums.smallestJacobian = smallest;
-    for (int k = 0; k < dim * dim; ++k)
-        for (int l = 0; l < lanes; ++l)
-            p.F[k][std::size_t(first + l)] = F[k][l];
-    for (int k = 0; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            p.stress[k][std::size_t(first + l)] = chunk.stress[k][l];
-
-    double plastic = 0, apex = 0, yield = sums.maxYield;
-    Index returns = 0;
-    for (int l = 0; l < count; ++l)
-    {
-        plastic += volume[l] * chunk.plasticWork[l];
-        apex += volume[l] * chunk.apexStrain[l];
-        returns += chunk.region[l] == constitutive::Region::apex;
-        yield = chunk.yield[l] > yield ? chunk.yield[l] : yield;
-    }
-    sums.plasticWork += plastic;
-    sums.apexVolume += apex;
-    sums.apexReturns += returns;
-    sums.maxYield = yield;
-    if constexpr (Shape::followsStretch)
-        domainsOfChunk(first, sums);
-}
-
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callLaws(Index first, constitutive::Chunk<dim>& chunk) const
-{
-    const std::int32_t* material = state_.particles.material.data() + first;
-    std::int32_t low = material[0], high = material[0];
-    for (int l = 0; l < lanes; ++l)
-    {
-        low = std::min(low, material[l]);
-        high = std::max(high, material[l]);
-    }
-    if (low == high)
-    {
-        scene_.materials[std::size_t(low)].law->update(chunk);
-        return;
-    }
-    const constitutive::Chunk<dim> before = chunk;
-    for (std::int32_t m = low; m <= high; ++m)
-    {
-        bool present = false;
-        for (int l = 0; l < lanes; ++l)
-            present = present || material[l] == m;
-        if (!present)
-            continue;
-        constitutive::Chunk<dim> own = before;
-        scene_.materials[std::size_t(m)].law->update(own);
-        for (int l = 0; l < lanes; ++l)
-            if (material[l] == m)
-            {
-                for (int k = 0; k < stressSize<dim>; ++k)
-                    chunk.stress[k][l] = own.stress[k][l];
-                chunk.plasticWork[l] = own.plasticWork[l];
-                chunk.apexStrain[l] = own.apexStrain[l];
-                chunk.yield[l] = own.yield[l];
-                chunk.region[l] = own.region[l];
-            }
-    }
-}
-
-/// Half lengths of the domains over h: initial edges (uGIMP), or following the right stretch (cpGIMP). Domains wider than
-/// the shape's support allows are held there and counted.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::domainsOfChunk(Index first, SlabSums& sums)
-{
-    const auto& p = state_.particles;
-    const double scale = 0.5 / state_.grid.h;
-    const double widest = Shape::followsStretch ? 1.0 : 0.5;
-    const int count = int(std::min<Index>(lanes, p.size() - first));
-    alignas(64) double U[dim][lanes];
-    if constexpr (Shape::followsStretch)
-    {
-        alignas(64) constitutive::TensorLanes<dim> F;
-        for (int k = 0; k < dim * dim; ++k)
-            for (int l = 0; l < lanes; ++l)
-                F[k][l] = p.F[k][std::size_t(first + l)];
-        constitutive::stretchDiagonal(F, U);
-    }
-    for (int a = 0; a < dim; ++a)
-        for (int l = 0; l < lanes; ++l)
-        {
-            double half = scale * p.length0[a][std::size_t(first + l)];
-            if constexpr (Shape::followsStretch)
-                half *= U[a][l];
-            const bool wide = half > widest * (1 + 1e-12);
-            sums.cappedDomains += wide && l < count;
-            lambda_[a][std::size_t(first + l)] = half > widest ? widest : half;
-        }
 }
 
 template <int dim, class Shape>
