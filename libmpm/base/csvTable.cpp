@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 namespace mpm
 {
@@ -175,26 +174,5 @@ std::optional<double> parseNumber(const std::string& text)
     if (error != std::errc() || end != last || !std::isfinite(value))
         return std::nullopt;
     return value;
-}
-
-void writeWhole(const std::filesystem::path& file, const std::string& text)
-{
-    const auto temporary = std::filesystem::path(file.string() + fmt::format(".{}.tmp", ::getpid()));
-    bool good = false;
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out << text;
-        out.close();
-        good = out.good();
-    }
-    std::error_code error;
-    if (good)
-        std::filesystem::rename(temporary, file, error);
-    if (!good || error)
-    {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw InputError({file.string(), 0}, "found a folder that cannot be written, allowed is a writable one");
-    }
 }
 } // namespace mpm

@@ -48,8 +48,4 @@ class CsvTable
 
 /// The number in `text` or nothing; the whole text must be one finite number.
 std::optional<double> parseNumber(const std::string& text);
-
-/// Writes under a temporary name beside `file`, then renames: the file is there whole or not at all.
-/// Throws InputError when the folder cannot be written.
-void writeWhole(const std::filesystem::path& file, const std::string& text);
 } // namespace mpm

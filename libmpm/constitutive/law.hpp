@@ -42,7 +42,8 @@ struct Chunk
     /// out: volumetric plastic strain the return to the apex drops beyond what the flow rule allows [-]; 0 elsewhere.
     /// At psi = 0 that is all of it; for psi > 0 every apex return has multipliers >= 0, so nothing is dropped.
     alignas(64) double apexStrain[lanes];
-    /// out: f/max(|sigma|, strength scale) after the update [-]; <= 0 inside, round-off on the surface
+    /// out: f/max(|sigma|, strength scale) of the returned principal stresses [-]; <= 0 inside, round-off on the
+    /// surface
     alignas(64) double yield[lanes];
     alignas(64) Region region[lanes]; ///< out: where each lane ended
     int apexReturns = 0;              ///< out: lanes below `count` that ended at the apex

@@ -1,15 +1,15 @@
 #pragma once
 /// Principal stresses of a symmetric 3 x 3 tensor and the way back, without eigenvectors, branches or trigonometry.
 ///
-/// With n = dev sigma/|dev sigma| and t = dev(n n), the tensors n and t' = t - (t:n) n are orthogonal and share the axes of
-/// sigma: every symmetric tensor with these axes is q I + a n + b t'/|t'|. The Lode angle theta in [0, 60 deg] follows
-/// from cos 3theta = sqrt6 t:n and sin 3theta = sqrt6 |t'|; principal values of n are sqrt(2/3) cos(theta - 120 deg i),
-/// those of t'/|t'| are sqrt(2/3) sin(theta - 120 deg i), i = 0, 1, -1, sorted.
-/// cos and sin of theta come from u = sin 3theta/(1 + |cos 3theta|) = tan(3 phi/2) in [0, 1], phi = min(theta, 60 deg - theta),
-/// by polynomials of cos(2/3 atan u) and sin(2/3 atan u)/u in u^2 - 1/2 (Chebyshev interpolation, error 9e-17).
+/// With n = dev sigma/|dev sigma| and t = dev(n n), the tensors n and t' = t - (t:n) n are orthogonal and share the
+/// axes of sigma: every symmetric tensor with these axes is q I + a n + b t'/|t'|. The Lode angle theta in [0, 60 deg]
+/// follows from cos 3theta = sqrt6 t:n and sin 3theta = sqrt6 |t'|; principal values of n are sqrt(2/3) cos(theta - 120
+/// deg i), those of t'/|t'| are sqrt(2/3) sin(theta - 120 deg i), i = 0, 1, -1, sorted. cos and sin of theta come from
+/// u = sin 3theta/(1 + |cos 3theta|) = tan(3 phi/2) in [0, 1], phi = min(theta, 60 deg - theta), by polynomials of
+/// cos(2/3 atan u) and sin(2/3 atan u)/u in u^2 - 1/2 (Chebyshev interpolation, error 9e-17).
 ///
-/// Repeated principal values are clean: t'/|t'| is then any tensor or zero, and the b that multiplies it is no larger than
-/// the gap between the values. A zero deviator gives n = 0, theta = 60 deg and three equal values.
+/// Repeated principal values are clean: t'/|t'| is then any tensor or zero, and the b that multiplies it is no larger
+/// than the gap between the values. A zero deviator gives n = 0, theta = 60 deg and three equal values.
 #include <cmath>
 
 namespace mpm::constitutive
@@ -36,17 +36,17 @@ struct Angle
 [[gnu::always_inline]] inline Angle thirdAngle(double cos3, double sin3)
 {
     constexpr double cosineOf[20] = {
-        0.91699329835202015,     -0.12536299522034242,    0.059185543011939359,   -0.031575948729154903,
-        0.017847724235548749,    -0.010434773948309741,   0.006237803899769143,   -0.0037880447208296485,
-        0.0023275358693854182,   -0.0014432114623975588,  0.00090146533715209699, -0.00056638607613426989,
-        0.0003570131097042923,   -0.00022635402670473563, 0.00014743249038568596, -9.4131959394184401e-05,
-        4.8686063066059076e-05,  -3.117876703483424e-05,  4.1803149446577366e-05, -2.6974031095851923e-05};
+        0.91699329835202015,    -0.12536299522034242,    0.059185543011939359,   -0.031575948729154903,
+        0.017847724235548749,   -0.010434773948309741,   0.006237803899769143,   -0.0037880447208296485,
+        0.0023275358693854182,  -0.0014432114623975588,  0.00090146533715209699, -0.00056638607613426989,
+        0.0003570131097042923,  -0.00022635402670473563, 0.00014743249038568596, -9.4131959394184401e-05,
+        4.8686063066059076e-05, -3.117876703483424e-05,  4.1803149446577366e-05, -2.6974031095851923e-05};
     constexpr double sineOf[20] = {
-        0.56413347849154094,     -0.15658090144619868,    0.071162049771912719,   -0.037075497737730438,
-        0.020609723015370666,    -0.011899091443221679,   0.007042938286131774,   -0.0042425124931650474,
-        0.0025892083718289998,   -0.001596238321560538,   0.00099208815248828276, -0.00062060653568057932,
-        0.00038969415302965671,  -0.00024622135582218728, 0.00015981673819351309, -0.00010175365647054135,
-        5.261739804890608e-05,   -3.3612747992081992e-05, 4.4787920102689104e-05, -2.8846019592890903e-05};
+        0.56413347849154094,    -0.15658090144619868,    0.071162049771912719,   -0.037075497737730438,
+        0.020609723015370666,   -0.011899091443221679,   0.007042938286131774,   -0.0042425124931650474,
+        0.0025892083718289998,  -0.001596238321560538,   0.00099208815248828276, -0.00062060653568057932,
+        0.00038969415302965671, -0.00024622135582218728, 0.00015981673819351309, -0.00010175365647054135,
+        5.261739804890608e-05,  -3.3612747992081992e-05, 4.4787920102689104e-05, -2.8846019592890903e-05};
     constexpr double halfSqrt3 = 0.86602540378443865;
 
     const double u = sin3 / (1 + std::abs(cos3));
@@ -102,8 +102,7 @@ struct LodeFrame
     const double along = t[0] * n[0] + t[1] * n[1] + t[2] * n[2] + 2 * (t[3] * n[3] + t[4] * n[4] + t[5] * n[5]);
     for (int k = 0; k < 6; ++k)
         t[k] -= along * n[k];
-    const double across2 =
-        t[0] * t[0] + t[1] * t[1] + t[2] * t[2] + 2 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]);
+    const double across2 = t[0] * t[0] + t[1] * t[1] + t[2] * t[2] + 2 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]);
     const double across = std::sqrt(across2);
     const double inverse2 = across2 > 0 ? 1 / across : 0;
     for (int k = 0; k < 6; ++k)

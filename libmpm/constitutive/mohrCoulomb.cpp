@@ -24,18 +24,6 @@ Slope slope(double degrees)
     return {(1 + std::sin(a)) / oneMinusSine, 2 * std::sin(a) / oneMinusSine, std::cos(a) / oneMinusSine};
 }
 
-void requireParameters(const MohrCoulombParameters& p)
-{
-    requireModuli(p.moduli);
-    if (!std::isfinite(p.cohesion) || p.cohesion < 0)
-        throw InputError(fmt::format("cohesion: found {}, allowed is >= 0", p.cohesion));
-    if (!(p.frictionAngle >= 0 && p.frictionAngle < 90))
-        throw InputError(fmt::format("frictionAngle: found {}, allowed is in [0, 90)", p.frictionAngle));
-    if (!(p.dilationAngle >= 0 && p.dilationAngle <= p.frictionAngle))
-        throw InputError(fmt::format("dilationAngle: found {}, allowed is in [0, frictionAngle = {}]", p.dilationAngle,
-                                     p.frictionAngle));
-}
-
 const MohrCoulombParameters& checked(const MohrCoulombParameters& parameters)
 {
     requireParameters(parameters);
@@ -162,6 +150,18 @@ void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, const MohrCoulo
 }
 } // namespace
 
+void requireParameters(const MohrCoulombParameters& p)
+{
+    requireModuli(p.moduli);
+    if (!std::isfinite(p.cohesion) || p.cohesion < 0)
+        throw InputError(fmt::format("cohesion: found {}, allowed is >= 0", p.cohesion));
+    if (!(p.frictionAngle >= 0 && p.frictionAngle < 90))
+        throw InputError(fmt::format("frictionAngle: found {}, allowed is in [0, 90)", p.frictionAngle));
+    if (!(p.dilationAngle >= 0 && p.dilationAngle <= p.frictionAngle))
+        throw InputError(fmt::format("dilationAngle: found {}, allowed is in [0, frictionAngle = {}]", p.dilationAngle,
+                                     p.frictionAngle));
+}
+
 MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
 {
     const Slope friction = slope(p.frictionAngle), dilation = slope(p.dilationAngle);
@@ -195,8 +195,7 @@ MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
 
 MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters)
     : parameters_(checked(parameters)), surface_(parameters)
-{
-}
+{}
 
 MohrCoulomb MohrCoulomb::read(const dictionary::Dictionary& material)
 {
@@ -215,8 +214,9 @@ MohrCoulomb MohrCoulomb::read(const dictionary::Dictionary& material)
 std::string MohrCoulomb::describe() const
 {
     const auto& p = parameters_;
-    return fmt::format("mohrCoulomb: E {:g} Pa, nu {:g}, cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} deg",
-                       p.moduli.young, p.moduli.poisson, p.cohesion, p.frictionAngle, p.dilationAngle);
+    return fmt::format(
+        "mohrCoulomb: E {:g} Pa, nu {:g}, cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} deg",
+        p.moduli.young, p.moduli.poisson, p.cohesion, p.frictionAngle, p.dilationAngle);
 }
 
 void MohrCoulomb::update(Chunk<2>& chunk) const

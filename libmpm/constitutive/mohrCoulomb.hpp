@@ -9,9 +9,9 @@
 /// (2006) 1036-1059; mohrCoulombReturn.hpp has the formulas. phi = 0 is Tresca's law; it has no apex. c = 0 is allowed.
 /// The surface turns with the trial stress: axes are those of the trial stress, the answer of a backward Euler step.
 ///
-/// At psi = 0 the flow rule keeps plastic volume, so beyond p = c cot phi it has no solution. The apex is then the limit
-/// psi -> 0+, a convention; the plastic volume it drops, (p_trial - c cot phi)/K, goes to Chunk::apexStrain. For psi > 0
-/// the six planes meeting at the apex span every plastic strain the return needs: apexStrain is 0 there.
+/// At psi = 0 the flow rule keeps plastic volume, so beyond p = c cot phi it has no solution. The apex is then the
+/// limit psi -> 0+, a convention; the plastic volume it drops, (p_trial - c cot phi)/K, goes to Chunk::apexStrain. For
+/// psi > 0 the six planes meeting at the apex span every plastic strain the return needs: apexStrain is 0 there.
 /// Chunk::apexReturns counts apex returns for every psi.
 ///
 ///     law            mohrCoulomb;
@@ -21,7 +21,8 @@
 ///     frictionAngle  42;     // [deg] in [0, 90)
 ///     dilationAngle  0;      // [deg] in [0, frictionAngle]; default 0
 ///
-/// Tests: tests/unit/mohrCoulomb.cpp, tests/verification/rateEquations.cpp. Errors: InputError for values out of bounds.
+/// Tests: tests/unit/mohrCoulomb.cpp, tests/verification/rateEquations.cpp. Errors: InputError for values out of
+/// bounds.
 #include "constitutive/elasticTrial.hpp"
 #include "constitutive/mohrCoulombReturn.hpp"
 

@@ -2,8 +2,8 @@
 /// The Mohr-Coulomb return of one sorted triple of principal stresses, branch-free, in the form the lane loops inline.
 ///
 /// With D the isotropic stiffness, a = (k, 0, -1), b = (m, 0, -1), r = D b/(a.D b), edges l1 (s1 = s2) and l2 (s2 = s3)
-/// with directions r1 = (1, 1, k), r2 = (1, k, k), their potentials g1 = (1, 1, m), g2 = (1, m, m), a point x of the edge
-/// and t_i = g_i.D^-1 (s - x)/(g_i.D^-1 r_i), the order of decisions is (Clausen et al. 2006, section 5)
+/// with directions r1 = (1, 1, k), r2 = (1, k, k), their potentials g1 = (1, 1, m), g2 = (1, m, m), a point x of the
+/// edge and t_i = g_i.D^-1 (s - x)/(g_i.D^-1 r_i), the order of decisions is (Clausen et al. 2006, section 5)
 ///
 ///     f <= 0                     elastic
 ///     t1 > 0 and t2 > 0          apex                     (t from x = apex)
@@ -12,8 +12,8 @@
 ///     else                       face: s - f r
 ///
 /// Written so that nothing divides by k - 1 and nothing is lost by cancellation:
-/// - x is the edge point with s3 = 0, (sc/k, sc/k, 0) or (sc/k, 0, 0), which exists for k = 1 too; then t_i > 0 seen from
-///   the apex is (k - 1) s3 > sc at the returned s3 = k t_i, never true for Tresca.
+/// - x is the edge point with s3 = 0, (sc/k, sc/k, 0) or (sc/k, 0, 0), which exists for k = 1 too; then t_i > 0 seen
+///   from the apex is (k - 1) s3 > sc at the returned s3 = k t_i, never true for Tresca.
 /// - (r x r1).(s - x) is a positive multiple of s1 - s2 after the face return and (r x r2).(s - x) a negative one of
 ///   s2 - s3, so both are decided there.
 /// - Every returned point takes s1 = (s3 + sc)/k: f is round-off of the returned stress, however large the trial was.
@@ -32,18 +32,21 @@ struct MohrCoulombParameters
     double dilationAngle = 0;
 };
 
+/// Throws InputError unless the parameters are finite and in their bounds.
+void requireParameters(const MohrCoulombParameters& parameters);
+
 /// Constants of the return, all formed from sums of terms of one sign.
 struct MohrCoulombSurface
 {
-    double k, kMinus1, invK;   ///< k, k - 1, 1/k
-    double strength;           ///< sc = 2 c sqrt(k) [Pa]
-    double onset;              ///< sc/k: s1 where s3 = 0 [Pa]
-    double face2, face3;       ///< r2, r3
-    double l1Major, l1Minor;   ///< s3 on l1 = l1Major (s1 + s2 - 2 onset) + l1Minor s3
-    double l2Major, l2Minor;   ///< s3 on l2 = l2Major (s1 - onset) + l2Minor (s2 + s3)
-    double apex;               ///< c cot phi [Pa]; 0 for phi = 0, where it is never used
-    double highest;            ///< largest s3 on the surface: the apex, or infinity for phi = 0 [Pa]
-    double dropsVolume;        ///< 1/K at psi = 0, else 0 [1/Pa]
+    double k, kMinus1, invK; ///< k, k - 1, 1/k
+    double strength;         ///< sc = 2 c sqrt(k) [Pa]
+    double onset;            ///< sc/k: s1 where s3 = 0 [Pa]
+    double face2, face3;     ///< r2, r3
+    double l1Major, l1Minor; ///< s3 on l1 = l1Major (s1 + s2 - 2 onset) + l1Minor s3
+    double l2Major, l2Minor; ///< s3 on l2 = l2Major (s1 - onset) + l2Minor (s2 + s3)
+    double apex;             ///< c cot phi [Pa]; 0 for phi = 0, where it is never used
+    double highest;          ///< largest s3 on the surface: the apex, or infinity for phi = 0 [Pa]
+    double dropsVolume;      ///< 1/K at psi = 0, else 0 [1/Pa]
 
     explicit MohrCoulombSurface(const MohrCoulombParameters& parameters);
 };

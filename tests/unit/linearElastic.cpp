@@ -84,7 +84,8 @@ TEST_CASE("plane strain and 3D agree to the last bit, units of powers of two cha
     for (int i = 0; i < lanes; ++i)
         for (int k = 0; k < 6; ++k)
         {
-            const double s = k < 4 ? 1e3 * std::sin(1.7 * i + k) : 0, e = k < 4 && k != 2 ? 1e-3 * std::cos(i * k + 0.3) : 0;
+            const double s = k < 4 ? 1e3 * std::sin(1.7 * i + k) : 0,
+                         e = k < 4 && k != 2 ? 1e-3 * std::cos(i * k + 0.3) : 0;
             solid.stress[k][i] = s;
             solid.dStrain[k][i] = e;
             if (k < 4)

@@ -1,0 +1,251 @@
+#include "reference/lawCheck.hpp"
+
+#include "base/terminal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace mpm::reference
+{
+using dictionary::Bound;
+using dictionary::Dictionary;
+namespace unit = dictionary::unit;
+
+namespace
+{
+std::shared_ptr<const constitutive::Law> findLaw(const Dictionary& d, const Laws& laws)
+{
+    std::vector<dictionary::Choice> names;
+    for (const auto& [name, law] : laws)
+        names.push_back({name, law->describe()});
+    return laws.at(d.choose("material", "dictionary in constant/materialProperties", names));
+}
+
+std::vector<int> readSteps(const Dictionary& d, const std::string& word, const std::string& help, double last)
+{
+    std::vector<double> doubling;
+    for (double n = 1; n <= last; n *= 2)
+        doubling.push_back(n);
+    std::vector<int> steps;
+    for (const double n : d.get<std::vector<double>>({word, help, unit::none, Bound::between(1, 1e6), doubling}))
+    {
+        if (n != std::floor(n) || (!steps.empty() && n <= steps.back()))
+            d.fail(word, fmt::format("{:g}", n), "growing whole numbers");
+        steps.push_back(int(n));
+    }
+    if (steps.empty())
+        d.fail(word, "an empty list", "growing whole numbers");
+    return steps;
+}
+
+Harmonic readHarmonic(const Dictionary& d)
+{
+    Harmonic out;
+    out.sine = d.choose("function", "of time", {{"cos", "amplitude cos(w t)"}, {"sin", "amplitude sin(w t)"}}) == "sin";
+    out.amplitude = d.get<double>({"amplitude", "strain rate, tensor component", unit::rate});
+    out.angularFrequency = d.get<double>({"angularFrequency", "w [rad/s]", unit::rate, Bound::nonNegative(), 0.0});
+    return out;
+}
+
+SymmetricTensor readStress(const Dictionary& d)
+{
+    const auto values = d.get<std::vector<double>>({"startStress", "stress at the start, xx yy zz xy yz zx",
+                                                    unit::pressure, Bound::any(), std::vector<double>(6, 0.0)});
+    if (values.size() != 6)
+        d.fail("startStress", fmt::format("{} numbers", values.size()), "6, (xx yy zz xy yz zx)");
+    SymmetricTensor out;
+    std::copy(values.begin(), values.end(), out.begin());
+    return out;
+}
+
+LawCheck readPath(const Dictionary& dict, const Dictionary& d, const std::string& name, const Laws& laws,
+                  const std::vector<int>& steps)
+{
+    const double end = d.get<double>({"endTime", "length of the path", unit::time, Bound::positive()});
+    std::array<Harmonic, 6> rates;
+    const Dictionary& rate = d.subDict("rate", "strain rates of the components");
+    for (int k = 0; k < 6; ++k)
+        if (const Dictionary* component = rate.findDict(stressNames[k], "strain rate of this component"))
+            rates[k] = readHarmonic(*component);
+    auto law = d.found("law")        ? std::shared_ptr<const constitutive::Law>(constitutive::makeLaw(d))
+               : d.found("material") ? findLaw(d, laws)
+                                     : findLaw(dict, laws);
+    return {name, std::move(law), readStress(d), StrainPath::harmonic(rates, end), steps, {}};
+}
+
+/// The rows of one particle within a span of time.
+struct Record
+{
+    std::vector<double> times;
+    std::vector<SymmetricTensor> strains, stresses;
+};
+
+std::map<Index, Record> readRecords(const std::filesystem::path& file, double from, double to)
+{
+    const CsvTable table = CsvTable::read(file);
+    const auto particle = table.column("particle"), time = table.column("time");
+    std::array<std::size_t, 6> e, s;
+    for (int k = 0; k < 6; ++k)
+    {
+        e[k] = table.column(std::string("e") + stressNames[k]);
+        s[k] = table.column(std::string("s") + stressNames[k]);
+    }
+    std::map<Index, Record> records;
+    for (const auto& row : table.rows())
+    {
+        const double t = table.number(row, time), id = table.number(row, particle);
+        if (id != std::floor(id) || id < 0)
+            table.fail(row, particle, "a particle's id, a whole number");
+        Record& record = records[Index(id)];
+        if (t < from || t > to)
+            continue;
+        if (!record.times.empty() && !(t > record.times.back()))
+            table.fail(row, time, fmt::format("growing times, > {:g}", record.times.back()));
+        record.times.push_back(t);
+        record.strains.emplace_back();
+        record.stresses.emplace_back();
+        for (int k = 0; k < 6; ++k)
+        {
+            record.strains.back()[k] = table.number(row, e[k]);
+            record.stresses.back()[k] = table.number(row, s[k]);
+        }
+    }
+    return records;
+}
+
+void readRecorded(const Dictionary& dict, const Dictionary& d, const Laws& laws, const std::filesystem::path& folder,
+                  std::vector<LawCheck>& checks)
+{
+    const auto file = d.get<std::string>(
+        {"file", "strain paths mpmSolve recorded", unit::none, {}, std::string("postProcessing/strainPaths.csv")});
+    const double from = d.get<double>({"from", "begin", unit::time, {}, -1e300});
+    const double to = d.get<double>({"to", "end", unit::time, {}, 1e300});
+    const auto steps = readSteps(d, "subdivisions", "steps of the return map in each recorded increment", 32);
+    const auto wanted = d.get<std::vector<double>>(
+        {"particles", "ids; default: all", unit::none, Bound::nonNegative(), std::vector<double>{}});
+    const auto law = d.found("material") ? findLaw(d, laws) : findLaw(dict, laws);
+    if (!std::filesystem::is_regular_file(folder / file))
+        throw InputError(d.where(),
+                         fmt::format("recorded: found no {}, allowed is a record: let mpmSolve write it with "
+                                     "recordStrain {{ particles (...); }} in system/controlDict",
+                                     (folder / file).string()));
+
+    auto records = readRecords(folder / file, from, to);
+    std::vector<std::string> there;
+    for (const auto& record : records)
+        there.push_back(std::to_string(record.first));
+    std::vector<Index> ids;
+    for (const double id : wanted)
+    {
+        if (id != std::floor(id) || !records.count(Index(id)))
+            d.fail("particles", fmt::format("{:g}", id), joinWords(there));
+        ids.push_back(Index(id));
+    }
+    if (wanted.empty())
+        for (const auto& record : records)
+            ids.push_back(record.first);
+    for (const Index id : ids)
+    {
+        Record& r = records[id];
+        if (r.times.size() < 2)
+            d.fail(d.found("from") ? "from" : "file", fmt::format("{} rows of particle {}", r.times.size(), id),
+                   "at least 2 between from and to");
+        checks.push_back({fmt::format("particle {}", id), law, r.stresses.front(),
+                          StrainPath::table(r.times, r.strains), steps, r.stresses.back()});
+    }
+}
+
+double norm(const SymmetricTensor& s)
+{
+    double sum = 0;
+    for (const double x : s)
+        sum += x * x;
+    return std::sqrt(sum);
+}
+} // namespace
+
+std::vector<LawCheck> readLawChecks(const Dictionary& dict, const Laws& laws, const std::filesystem::path& folder)
+{
+    std::vector<LawCheck> checks;
+    const auto steps = readSteps(dict, "steps", "of the return map over a path", 512);
+    dict.found("material");
+    if (const Dictionary* paths = dict.findDict("paths", "strain rates as functions of time"))
+        for (const auto& name : paths->dictNames())
+            checks.push_back(readPath(dict, paths->subDict(name, "a path"), name, laws, steps));
+    if (const Dictionary* recorded = dict.findDict("recorded", "strain paths recorded by mpmSolve"))
+        readRecorded(dict, *recorded, laws, folder, checks);
+    dict.rejectUnread();
+    if (checks.empty())
+        throw InputError(dict.where(), "found no path, allowed is paths { ... } and recorded { ... }");
+    return checks;
+}
+
+LawCheckResult runLawCheck(const LawCheck& check)
+{
+    const auto* law = dynamic_cast<const constitutive::MohrCoulomb*>(check.law.get());
+    if (!law)
+        throw InputError(fmt::format("{}: found the law {}, allowed is mohrCoulomb, whose rate equations are known",
+                                     check.name, check.law->name()));
+    LawCheckResult out;
+    try
+    {
+        out.exact = integrateRates(law->parameters(), check.start, check.path);
+    }
+    catch (const InputError& error)
+    {
+        throw InputError(check.name + ": " + error.what());
+    }
+    out.rows = judgeReturnMap(*law, check.start, check.path, out.exact, check.steps);
+    if (check.recordedEnd)
+    {
+        const auto undivided = judgeReturnMap(*law, check.start, check.path, out.exact, {1}).front().stress;
+        double size = 0;
+        for (const auto& s : out.exact.stress)
+            size = std::max(size, norm(s));
+        SymmetricTensor d;
+        for (int k = 0; k < 6; ++k)
+            d[k] = undivided[k] - (*check.recordedEnd)[k];
+        out.recordError = norm(d) / (size > 0 ? size : 1);
+    }
+    return out;
+}
+
+std::string lawCheckText(const LawCheck& check, const LawCheckResult& result)
+{
+    std::map<Region, int> entered;
+    for (const auto& event : result.exact.events)
+        ++entered[event.region];
+    std::string regions;
+    for (const auto& [region, count] : entered)
+        regions += fmt::format("{}{} x {}", regions.empty() ? "" : ", ", constitutive::regionName(region), count);
+    const auto& s = result.exact.stress.back();
+    std::string text = fmt::format(
+        "{}: {}\n  exact stress xx {:.6f} yy {:.6f} zz {:.6f} xy {:.6f} yz {:.6f} zx {:.6f} Pa, {}, drift of f {:.1e}\n"
+        "  regions entered: {}{}\n",
+        check.name, check.law->describe(), s[0], s[1], s[2], s[3], s[4], s[5],
+        result.exact.yieldTime ? fmt::format("first yield at {:.8f} s", *result.exact.yieldTime) : "no yield",
+        result.exact.drift, regions,
+        result.recordError ? fmt::format("; recorded stress differs by {:.1e}", *result.recordError) : "");
+    Table table({check.path.straight() ? "steps per increment" : "steps", "error at the end", "largest error", "order",
+                 "f/scale"});
+    for (const auto& row : result.rows)
+        table.row({std::to_string(row.steps), fmt::format("{:.4e}", row.final), fmt::format("{:.4e}", row.largest),
+                   row.order ? fmt::format("{:.2f}", *row.order) : "-", fmt::format("{:.1e}", row.yield)});
+    return text + table.text();
+}
+
+CsvTable lawCheckTable()
+{
+    return CsvTable({"path", "steps", "error", "largestError", "order", "yield", "yieldTime", "drift", "recordError"});
+}
+
+void addLawCheckRows(CsvTable& table, const LawCheck& check, const LawCheckResult& result)
+{
+    const auto text = [](std::optional<double> x) { return x ? fmt::format("{:.17g}", *x) : std::string(); };
+    for (const auto& row : result.rows)
+        table.addRow({check.name, std::to_string(row.steps), text(row.final), text(row.largest), text(row.order),
+                      text(row.yield), text(result.exact.yieldTime), text(result.exact.drift),
+                      text(result.recordError)});
+}
+} // namespace mpm::reference
