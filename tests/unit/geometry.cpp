@@ -228,7 +228,8 @@ TEST_CASE("3D: .geo, .step, .stl and .msh of the same solid")
 {
     const auto geo = writeText("solid.geo", R"(
         SetFactory("OpenCASCADE");
-        Box(1) = {0, 0, 0, 1, 2, 3}; Box(2) = {1, 0, 0, 1, 1, 1}; BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+        Box(1) = {0, 0, 0, 1, 2, 3}; Box(2) = {1, 0, 0, 1, 1, 1};
+        BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
         Physical Volume("tall") = {1}; Physical Volume("small") = {2};
         Physical Surface("all") = CombinedBoundary{ Volume{1, 2}; };
         Mesh.MeshSizeMax = 0.6;
