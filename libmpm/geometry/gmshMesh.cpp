@@ -152,7 +152,7 @@ class Reader
         }
     }
 
-    /// Curved surfaces of OpenCASCADE's kernel; in gmsh's own the same option takes minutes, and edges rule the surfaces.
+    /// Curved surfaces of OpenCASCADE's kernel; in gmsh's own kernel the option takes minutes, and edges do.
     void refineCurvedSurfaces() const
     {
         double chords = 0;

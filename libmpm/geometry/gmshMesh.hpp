@@ -7,12 +7,13 @@
 ///     .msh           gmsh's mesh format 2.2 and 4.1, elements of first order
 ///
 /// Physical groups of the asked dimension are regions, those of one dimension less are boundaries. A file without
-/// groups of the asked dimension is one region named after the file. Straight curves come out as one segment between their end
-/// points as written in the file, curved ones as chords: the mesh sizes of the file rule them, and at least 180 (in 3D
-/// 130) chords make a full circle, 100 (40) any other curve, unless the .geo file sets Mesh.MinimumCirclePoints,
-/// Mesh.MinimumCurvePoints or, for curved surfaces, Mesh.MeshSizeFromCurvature itself.
+/// groups of the asked dimension is one region named after the file. Straight curves come out as one segment between
+/// their end points as written in the file, curved ones as chords: the mesh sizes of the file rule them, and at least
+/// 180 (in 3D 130) chords make a full circle, 100 (40) any other curve, unless the .geo file sets
+/// Mesh.MinimumCirclePoints, Mesh.MinimumCurvePoints or, for curved surfaces, Mesh.MeshSizeFromCurvature itself.
 ///
-/// Lengths are metres. Coordinates of a STEP file are taken as written, whatever its unit; `scale` multiplies all.
+/// Lengths are metres. Coordinates of a STEP file are taken as written, whatever its unit (inches as millimetres, which
+/// gmsh makes of them), and a note says so; `scale` multiplies all.
 /// Errors (InputError, with the file's name): unreadable file or what gmsh says of it, no entity of the asked
 /// dimension, a plane geometry that is not in a plane z = constant, elements of higher order.
 ///

@@ -1,6 +1,7 @@
 // Regions, their share of boxes, and the files they come from.
 #include "base/error.hpp"
 #include "geometry/bodyGeometry.hpp"
+#include "geometry/geometryFile.hpp"
 #include "geometry/gmshMesh.hpp"
 #include "geometry/region2D.hpp"
 #include "geometry/region3D.hpp"
@@ -227,7 +228,8 @@ TEST_CASE("3D: .geo, .step, .stl and .msh of the same solid")
 {
     const auto geo = writeText("solid.geo", R"(
         SetFactory("OpenCASCADE");
-        Box(1) = {0, 0, 0, 1, 2, 3}; Box(2) = {1, 0, 0, 1, 1, 1}; BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+        Box(1) = {0, 0, 0, 1, 2, 3}; Box(2) = {1, 0, 0, 1, 1, 1};
+        BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
         Physical Volume("tall") = {1}; Physical Volume("small") = {2};
         Physical Surface("all") = CombinedBoundary{ Volume{1, 2}; };
         Mesh.MeshSizeMax = 0.6;
@@ -264,6 +266,39 @@ TEST_CASE("3D: .geo, .step, .stl and .msh of the same solid")
     CHECK(stl.regions[0]->volume() == Approx(6).epsilon(1e-6)); // STL holds single precision texts
 }
 
+TEST_CASE("meshes of quadrangles and hexahedra")
+{
+    const auto file = writeText("blocks.geo", R"(
+        SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 1}; Transfinite Surface{1}; Recombine Surface{1};
+        body[] = Extrude {0, 0, 1.5} { Surface{1}; Layers{3}; Recombine; };
+        Physical Volume("block") = {body[1]}; Physical Surface("foot") = {1};
+        Mesh.MeshSizeMax = 0.5;
+    )");
+    const BodyGeometry body = readGeometry(meshOf(file, 3, 4.1), 3);
+    CHECK(body.regions[0]->volume() == Approx(3).epsilon(1e-13));
+    const auto [normal, volume] = divergence(body.boundaries, 3);
+    CHECK(normal[2] == Approx(-2).epsilon(1e-13)); // the foot faces down
+    CHECK(std::abs(normal[0]) + std::abs(normal[1]) < 1e-14);
+}
+
+TEST_CASE("coordinates of a STEP file are taken as written, whatever its unit")
+{
+    const auto mm = stepOf("SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 2, 3};", "units.step");
+    CHECK(stepUnit(mm) == "MILLI METRE");
+    CHECK_THAT(readGeometry(mm, 3).notes[0], Contains("MILLI METRE"));
+    std::ifstream in(mm);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (std::size_t at; (at = text.find(".MILLI.,.METRE.")) != std::string::npos;)
+        text.replace(at, 7, 1, '$');
+    const auto m = writeText("metres.step", text);
+    CHECK(stepUnit(m) == "METRE");
+    CHECK(readGeometry(m, 3).regions[0]->volume() == Approx(6).epsilon(1e-9));
+    CHECK(stepUnit(writeText("inch.step", "#1=(CONVERSION_BASED_UNIT('DEGREE',#2)NAMED_UNIT(#3)PLANE_ANGLE_UNIT());\n"
+                                          "#4=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+                                          "#5=(CONVERSION_BASED_UNIT('INCH',#6)LENGTH_UNIT()NAMED_UNIT(#7));")) ==
+          "INCH");
+}
+
 TEST_CASE("bad files are refused with their name and what to do")
 {
     const auto refused = [](const std::filesystem::path& file, int dim, const std::string& what) {
@@ -297,6 +332,9 @@ TEST_CASE("bad files are refused with their name and what to do")
                       R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 2, 2}; Rectangle(2) = {1, 1, 0, 2, 2};
         Physical Surface("soil") = {1}; Physical Surface("rock") = {2};)"),
             2, "'soil' and 'rock' overlap in 1 m2");
+    const auto cut = writeText("lineEnd.geo", square);
+    std::filesystem::resize_file(cut, std::filesystem::file_size(cut) - 6);
+    refused(cut, 2, "last line");
     Surface3 open = boxSurface({0, 0, 0}, {1, 1, 1});
     open.triangles.pop_back();
     refused(writeStl("openBox.stl", open), 3, "'openBox': its surface is open");

@@ -97,8 +97,10 @@ TEST_CASE("patches keep the boundary's length, area and orientation in pieces no
 TEST_CASE("a state: order, ids, masses, two materials, patches")
 {
     const auto file = writeText("layers.geo", R"(
-        Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {4, 1.5, 0}; Point(4) = {0, 1.5, 0}; Point(5) = {4, 3, 0}; Point(6) = {0, 3, 0};
-        Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};
+        Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {4, 1.5, 0}; Point(4) = {0, 1.5, 0};
+        Point(5) = {4, 3, 0}; Point(6) = {0, 3, 0};
+        Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+        Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};
         Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
         Physical Surface("rock") = {1}; Physical Surface("top soil") = {2}; Physical Curve("base") = {1};
     )");

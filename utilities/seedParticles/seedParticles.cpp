@@ -23,11 +23,10 @@ void refuseOldState(const cases::CaseDirectory& here, bool overwrite)
         throw InputError({state.string()}, "holds a state already; -overwrite replaces it");
     if (std::filesystem::exists(here.timePath("0")) && !std::filesystem::is_directory(here.timePath("0")))
         throw InputError({here.timePath("0").string()}, "is no folder; the state would go into it");
-    for (const auto& time : here.times())
-        if (time.value > 0)
-            fmt::print("note: {} stays, of an earlier run; mpmSolve goes on from the latest time unless startFrom says "
-                       "otherwise\n",
-                       here.statePath(time.name).string());
+    const auto times = here.times();
+    if (!times.empty() && times.back().value > 0)
+        fmt::print("note: times of an earlier run stay, up to {}; startFrom of controlDict says where mpmSolve begins\n",
+                   times.back().name);
 }
 } // namespace
 
@@ -35,10 +34,9 @@ int main(int argc, char** argv)
 {
     cases::ApplicationInfo info{"seedParticles", "particles with initial stress from the geometry of a case"};
     info.usesDryRun = info.usesOverwrite = true;
-    info.details = "Reads system/{seedParticlesDict,gridDict}, constant/{materialProperties,g} and the geometry (.geo, "
-                   ".step, .stl, "
-                   ".msh).\nWrites 0/state.h5 and <case>.xdmf for ParaView. -dry-run says what would be seeded and "
-                   "writes nothing.";
+    info.details =
+        "Reads system/{seedParticlesDict,gridDict}, constant/{materialProperties,g} and the geometry (.geo, .step, .stl,\n"
+        ".msh). Writes 0/state.h5 and <case>.xdmf for ParaView. -dry-run says what would be seeded and writes nothing.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);
         refuseOldState(here, options.overwrite);
@@ -75,7 +73,7 @@ int main(int argc, char** argv)
         here.requireWritable();
         output::writeState(here.timePath("0"), seeded.state);
         output::writeParaviewSeries(here.folder(), here.name(), {"0"});
-        fmt::print("wrote {}\n", here.statePath("0").lexically_normal().string());
+        fmt::print("wrote 0/state.h5\n");
         return 0;
     });
 }
