@@ -277,4 +277,16 @@ std::string timeName(double time, int precision)
         time = 0;
     return fmt::format("{:.{}g}", time, precision);
 }
+
+std::string distinctTimeName(double time, double previous, int precision)
+{
+    constexpr int mostDigits = 17;
+    for (; precision < mostDigits; ++precision)
+    {
+        const auto name = timeName(time, precision);
+        if (std::abs(number(name).value_or(0) - time) <= 1e-3 * std::abs(time - previous))
+            return name;
+    }
+    return timeName(time, mostDigits);
+}
 } // namespace mpm::cases

@@ -75,4 +75,7 @@ class CaseDirectory
 
 /// A time folder's name: the shortest with `precision` significant digits, as OpenFOAM ("0.25", "1e-05", "2").
 std::string timeName(double time, int precision = 6);
+/// The same with as many more digits as it takes to tell the time from the one stored before (to 1e-3 of the time
+/// between them), so that no two times share a folder and names keep their order.
+std::string distinctTimeName(double time, double previous, int precision = 6);
 } // namespace mpm::cases

@@ -12,6 +12,7 @@ namespace unit = dictionary::unit;
 
 constexpr double wholeCells = 1e-6; ///< [cells]
 constexpr double mostCells = 1e7;   ///< an axis; beyond it is a slip of the pen
+constexpr double mostNodes = 1e12;  ///< what a state file holds and sort keys can count
 
 std::string text(const Vector3& v)
 {
@@ -49,6 +50,12 @@ state::GridBox gridFromDict(const dictionary::Dictionary& dict)
         dict.fail("max", text(high),
                   fmt::format("a whole number of cells of cellSize {:.10g} from min {}; the nearest is {}", h,
                               text(low), text(fitting)));
+    double nodes = 1;
+    for (std::size_t k = 0; k < std::size_t(dim); ++k)
+        nodes *= double(grid.cells[k] + 1);
+    if (nodes > mostNodes)
+        dict.fail("cellSize", fmt::format("{:.10g}, which makes {:.2g} nodes", h, nodes),
+                  fmt::format("at most {:g} nodes in all", mostNodes));
     grid.h = (high[0] - low[0]) / double(grid.cells[0]);
     return grid;
 }

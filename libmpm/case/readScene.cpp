@@ -153,6 +153,18 @@ void refuseUselessWall(const Dictionary& all, const nodal::Wall& wall, const sta
                                      p.x[axis][std::size_t(first)]));
 }
 
+/// Walls are whole planes: of two that face the same way only the inner one acts, and on one plane friction would act twice.
+void refuseSecondWall(const Dictionary& all, const nodal::Wall& wall, const std::vector<nodal::Wall>& others)
+{
+    for (const auto& other : others)
+        if (other.axis == wall.axis && other.side == wall.side)
+            throw InputError(all.where(wall.name),
+                             fmt::format("{}: found a second wall with outward normal {}{}, besides '{}'; allowed: one, as a "
+                                         "wall is a whole plane",
+                                         wall.name, wall.side < 0 ? '-' : '+', axisNames[std::size_t(wall.axis)],
+                                         other.name));
+}
+
 nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::string& name, const std::string& type,
                      const state::State& state)
 {
@@ -206,7 +218,9 @@ void readBoundaries(const Dictionary& d, const state::State& state, stepping::Sc
                                     {"pressure", "given load along the inward normal"}});
         if (type != "traction" && type != "pressure")
         {
-            scene.walls.push_back(readWall(d, b, name, type, state));
+            const nodal::Wall wall = readWall(d, b, name, type, state);
+            refuseSecondWall(d, wall, scene.walls);
+            scene.walls.push_back(wall);
             continue;
         }
         nodal::Load load;

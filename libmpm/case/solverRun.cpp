@@ -67,7 +67,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
                                      scene_.shape, limit_.waveSpeed, state_.grid.h));
     if (!record.empty())
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
-    startedAt_ = state_.time;
+    storedTime_ = peakTime_ = state_.time;
+    peakKinetic_ = state_.ledger.kineticEnergy;
     firstStep_ = state_.step;
 }
 
@@ -230,12 +231,10 @@ void SolverRun::writeRow()
 
 void SolverRun::writeState()
 {
-    // two times never share a folder: more digits where timePrecision is not enough to tell them apart
-    auto name = timeName(state_.time, runTime_->timePrecision());
-    for (int digits = runTime_->timePrecision() + 1; name == lastStored_ && digits <= 17; ++digits)
-        name = timeName(state_.time, digits);
+    const auto name = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
     output::writeState(folder_.timePath(name), state_);
     lastStored_ = name;
+    storedTime_ = state_.time;
     written_.push_back(name);
     folder_.purge(written_, runTime_->purgeWrite());
     std::vector<std::string> names;
@@ -285,8 +284,11 @@ void SolverRun::summary()
                                      100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
                                      100 * p.constitutive / all, 100 * p.sort / all, 100 * p.split / all));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
-    line("extent", fmt::format("x {:.3f} .. {:.3f} m, y {:.3f} .. {:.3f} m (particle centres)", t.extents.low[0],
-                               t.extents.high[0], t.extents.low[1], t.extents.high[1]));
+    std::string extent;
+    for (int a = 0; a < state_.particles.dim; ++a)
+        extent += fmt::format("{} {:.3f} .. {:.3f} m{}", axisNames[a], t.extents.low[a], t.extents.high[a],
+                              a + 1 < state_.particles.dim ? ", " : " (particle centres)");
+    line("extent", extent);
     line("energy", fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
                                t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
                                l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));

@@ -60,7 +60,7 @@ class SolverRun
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     output::ParaviewSeries series_;
     std::vector<std::string> written_;
-    double timeBefore_ = 0, startedAt_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double timeBefore_ = 0, storedTime_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double seconds_ = 0, outputSeconds_ = 0;
     Index firstStep_ = 0;
 };

@@ -158,13 +158,16 @@ void ExplicitStepper<dim, Shape>::coverParticles()
             for (Index i = 0; i < p.size(); ++i)
             {
                 Vector3 x{};
+                std::string place, range;
                 for (int a = 0; a < dim; ++a)
+                {
                     x[a] = p.x[a][std::size_t(i)];
+                    place += fmt::format("{}{:g}", a ? ", " : "", x[a]);
+                    range += fmt::format("{}[{:g}, {:g}]", a ? " x " : "", box.origin[a], box.upper(a));
+                }
                 if (!box.contains(x))
-                    fail(i, fmt::format("lies at ({:g}, {:g}, {:g}), outside the grid [{:g}, {:g}] x [{:g}, {:g}] x "
-                                        "[{:g}, {:g}]: enlarge min and max in system/gridDict",
-                                        x[0], x[1], x[2], box.origin[0], box.upper(0), box.origin[1], box.upper(1),
-                                        box.origin[2], box.upper(2)));
+                    fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict", place,
+                                        range));
             }
     grid_.coverSlabs();
     rowSums_.assign(std::size_t(grid_.common.rows()), {});

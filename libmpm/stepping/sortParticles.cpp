@@ -36,7 +36,9 @@ void sortByPosition(state::State& state, int supportNodes)
         for (int a = p.dim - 1; a >= 0; --a)
         {
             const double s = (p.x[a][std::size_t(i)] - grid.origin[a]) * invH;
-            key = key * (grid.cells[a] + 2 * margin) + Index(std::floor(s - shift)) + margin;
+            // a particle that has left the box, or is nowhere, is refused by the pass that follows
+            const bool inside = s > -1 && s < double(grid.cells[a] + 1);
+            key = key * (grid.cells[a] + 2 * margin) + (inside ? Index(std::floor(s - shift)) : 0) + margin;
         }
         p.sortKey[std::size_t(i)] = key;
     }

@@ -187,3 +187,22 @@ TEST_CASE("purging keeps the last times and whatever is not ours")
     CHECK_THROWS_AS(here.removeTime("system"), InputError);
     CHECK(fs::exists(folder / "system/controlDict"));
 }
+
+TEST_CASE("stored times never share a folder: names get the digits they need and keep their order")
+{
+    CHECK(cases::distinctTimeName(0.25, 0, 6) == "0.25");
+    CHECK(cases::distinctTimeName(0.1 + 0.2, 0.2, 6) == "0.3");
+    CHECK(cases::distinctTimeName(1.0000001, 1, 6) == "1.0000001");
+    for (int precision : {1, 3, 6})
+    {
+        double before = 0, beforeName = 0;
+        for (int step = 1; step <= 3000; ++step)
+        {
+            const double time = before + (step % 3 ? 1e-3 : 1e-5);
+            const double name = std::stod(cases::distinctTimeName(time, before, precision));
+            CHECK(name > beforeName);
+            before = time;
+            beforeName = name;
+        }
+    }
+}
