@@ -155,7 +155,7 @@ void SolverRun::openOutput()
         recorder_->open(out / "strainPaths.csv", state_, continueAt);
     for (const auto& name : laterTimes_)
         folder_.removeTime(name);
-    if (fresh)
+    if (!history_->lastTime()) // a new series begins with the state it starts from
         writeRow();
     state_.provenance["version"] = projectVersion();
     state_.provenance["revision"] = gitRevision();
