@@ -15,8 +15,7 @@ InputError::InputError(const std::string& what) : std::runtime_error(what) {}
 
 InputError::InputError(const Location& where, const std::string& what)
     : std::runtime_error(fmt::format("{}: {}", where.text(), what))
-{
-}
+{}
 
 StepError::StepError(const std::string& what) : std::runtime_error(what) {}
 

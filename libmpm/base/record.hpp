@@ -5,8 +5,8 @@
 /// Layout of a node record in d dimensions: lane 0 mass, lanes 1..d momentum (later velocity), lanes d+1..2d force
 /// (later acceleration, or the velocity strains are taken from).
 ///
-/// For kernels only: how such a value is passed between functions depends on the instruction set, so it stays out of the
-/// headers utilities include.
+/// For kernels only: how such a value is passed between functions depends on the instruction set, so it stays out of
+/// the headers utilities include.
 namespace mpm
 {
 typedef double Record __attribute__((vector_size(64)));

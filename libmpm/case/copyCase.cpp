@@ -14,8 +14,8 @@ std::filesystem::path copyCase(const CaseDirectory& from, const std::filesystem:
     if (fs::exists(path))
     {
         if (!overwrite)
-            throw InputError(fmt::format("-target: found {} there already; allowed: a new folder, or -overwrite",
-                                         target.string()));
+            throw InputError(
+                fmt::format("-target: found {} there already; allowed: a new folder, or -overwrite", target.string()));
         if (fs::equivalent(path, from.folder()))
             throw InputError("-target: found the case itself; allowed: another folder");
         const CaseDirectory old(path); // refuses to touch what is no case folder

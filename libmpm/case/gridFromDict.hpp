@@ -11,6 +11,7 @@
 #include "dictionary/dictionary.hpp"
 #include "state/gridBox.hpp"
 
-namespace mpm::cases {
+namespace mpm::cases
+{
 state::GridBox gridFromDict(const dictionary::Dictionary& gridDict);
 } // namespace mpm::cases

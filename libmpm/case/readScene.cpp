@@ -123,10 +123,11 @@ Plane planeOfPatch(const Dictionary& all, const state::SurfacePatch& patch, int 
         if (flat && outward != 0)
             return {a, outward < 0 ? -1 : 1, 0.5 * (*low + *high)};
     }
-    throw InputError(all.where(patch.name),
-                     fmt::format("{}: found a boundary that is not flat and normal to an axis; a wall must be: give it as "
-                                 "plane {{ normal (0 -1 0); position 0; }}",
-                                 patch.name));
+    throw InputError(
+        all.where(patch.name),
+        fmt::format("{}: found a boundary that is not flat and normal to an axis; a wall must be: give it as "
+                    "plane {{ normal (0 -1 0); position 0; }}",
+                    patch.name));
 }
 
 /// A wall no particle can reach would be ignored, one with its normal into the soil would hold all of it.
@@ -136,9 +137,10 @@ void refuseUselessWall(const Dictionary& all, const nodal::Wall& wall, const sta
     const auto axis = std::size_t(wall.axis);
     const double position = grid.origin[axis] + grid.h * double(wall.plane);
     if (wall.plane < 0 || wall.plane > grid.cells[axis])
-        throw InputError(all.where(wall.name),
-                         fmt::format("{}: found a wall at {} = {:g}, outside the grid; allowed: {:g} to {:g} (system/gridDict)",
-                                     wall.name, axisNames[axis], position, grid.origin[axis], grid.upper(wall.axis)));
+        throw InputError(
+            all.where(wall.name),
+            fmt::format("{}: found a wall at {} = {:g}, outside the grid; allowed: {:g} to {:g} (system/gridDict)",
+                        wall.name, axisNames[axis], position, grid.origin[axis], grid.upper(wall.axis)));
     const auto& p = state.particles;
     const auto behind = [&](Index i) { return wall.side * (p.x[axis][std::size_t(i)] - position) > grid.h; };
     Index count = 0, first = -1;
@@ -146,23 +148,25 @@ void refuseUselessWall(const Dictionary& all, const nodal::Wall& wall, const sta
         if (behind(i) && count++ == 0)
             first = i;
     if (count > 0)
-        throw InputError(all.where(wall.name),
-                         fmt::format("{}: found {} of {} particles behind the wall at {} = {:g}, particle {} at {:g} the first; "
-                                     "allowed: a normal that points out of the soil, and a position beside it",
-                                     wall.name, count, p.size(), axisNames[axis], position, p.id[std::size_t(first)],
-                                     p.x[axis][std::size_t(first)]));
+        throw InputError(
+            all.where(wall.name),
+            fmt::format("{}: found {} of {} particles behind the wall at {} = {:g}, particle {} at {:g} the first; "
+                        "allowed: a normal that points out of the soil, and a position beside it",
+                        wall.name, count, p.size(), axisNames[axis], position, p.id[std::size_t(first)],
+                        p.x[axis][std::size_t(first)]));
 }
 
-/// Walls are whole planes: of two that face the same way only the inner one acts, and on one plane friction would act twice.
+/// Walls are whole planes: of two that face the same way only the inner one acts, and on one plane friction would act
+/// twice.
 void refuseSecondWall(const Dictionary& all, const nodal::Wall& wall, const std::vector<nodal::Wall>& others)
 {
     for (const auto& other : others)
         if (other.axis == wall.axis && other.side == wall.side)
-            throw InputError(all.where(wall.name),
-                             fmt::format("{}: found a second wall with outward normal {}{}, besides '{}'; allowed: one, as a "
-                                         "wall is a whole plane",
-                                         wall.name, wall.side < 0 ? '-' : '+', axisNames[std::size_t(wall.axis)],
-                                         other.name));
+            throw InputError(
+                all.where(wall.name),
+                fmt::format("{}: found a second wall with outward normal {}{}, besides '{}'; allowed: one, as a "
+                            "wall is a whole plane",
+                            wall.name, wall.side < 0 ? '-' : '+', axisNames[std::size_t(wall.axis)], other.name));
 }
 
 nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::string& name, const std::string& type,
@@ -170,15 +174,13 @@ nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::stri
 {
     nodal::Wall wall;
     wall.name = name;
-    wall.type = type == "fixed" ? nodal::WallType::fixed : type == "roller" ? nodal::WallType::roller
-                                                                           : nodal::WallType::friction;
+    wall.type = type == "fixed"    ? nodal::WallType::fixed
+                : type == "roller" ? nodal::WallType::roller
+                                   : nodal::WallType::friction;
     if (wall.type == nodal::WallType::friction)
         wall.mu = d.get<double>({"mu", "Coulomb friction coefficient", {}, Bound::nonNegative()});
-    wall.separation = d.get<bool>({"separation",
-                                   "on: the wall only pushes; off: it also holds",
-                                   {},
-                                   {},
-                                   wall.type == nodal::WallType::friction});
+    wall.separation = d.get<bool>(
+        {"separation", "on: the wall only pushes; off: it also holds", {}, {}, wall.type == nodal::WallType::friction});
     const int dim = state.particles.dim;
     Plane plane;
     if (const Dictionary* own = d.findDict("plane", "the wall's plane; default: that of the boundary of this name"))
@@ -249,8 +251,8 @@ splitting::Rule readSplitRule(const Dictionary& d)
                     ? splitting::Mode::fourWay
                     : splitting::Mode::stretched;
     rule.maxParticles = d.get<Index>({"maxParticles", "cap on their number", {}, Bound::atLeast(1), rule.maxParticles});
-    rule.maxGeneration = int(
-        d.get<Index>({"maxGeneration", "halvings of one particle", {}, Bound::between(0, 30), rule.maxGeneration}));
+    rule.maxGeneration =
+        int(d.get<Index>({"maxGeneration", "halvings of one particle", {}, Bound::between(0, 30), rule.maxGeneration}));
     return rule;
 }
 
@@ -264,11 +266,9 @@ splitting::Rule readSplitting(const Dictionary& d)
 std::string readSchemes(const Dictionary& d, const state::State& state, stepping::Scene& scene)
 {
     const auto shape = d.choose("shape", "shape functions", shapeCatalogue(), "uGIMP");
-    const auto update = d.choose("stressUpdate", "when stress is updated",
-                                 {{"MUSL", "last, from a second projection"},
-                                  {"USL", "last, from v*"},
-                                  {"USF", "before the forces"}},
-                                 "MUSL");
+    const auto update = d.choose(
+        "stressUpdate", "when stress is updated",
+        {{"MUSL", "last, from a second projection"}, {"USL", "last, from v*"}, {"USF", "before the forces"}}, "MUSL");
     scene.stressUpdate = update == "USF"   ? stepping::StressUpdate::USF
                          : update == "USL" ? stepping::StressUpdate::USL
                                            : stepping::StressUpdate::MUSL;
@@ -301,11 +301,13 @@ void takeGrid(const Dictionary& gridDict, state::State& state)
         same = std::abs(shift - std::round(shift)) <= 1e-6;
     }
     if (!same)
-        gridDict.fail("cellSize", fmt::format("dimension {}, cells of {:g} m from ({:g}, {:g}, {:g})", grid.dim, grid.h,
-                                              grid.origin[0], grid.origin[1], grid.origin[2]),
-                      fmt::format("the grid the particles were seeded on, dimension {}, cells of {:g} m from ({:g}, {:g}, "
-                                  "{:g}); to change it run seedParticles -overwrite",
-                                  own.dim, own.h, own.origin[0], own.origin[1], own.origin[2]));
+        gridDict.fail(
+            "cellSize",
+            fmt::format("dimension {}, cells of {:g} m from ({:g}, {:g}, {:g})", grid.dim, grid.h, grid.origin[0],
+                        grid.origin[1], grid.origin[2]),
+            fmt::format("the grid the particles were seeded on, dimension {}, cells of {:g} m from ({:g}, {:g}, "
+                        "{:g}); to change it run seedParticles -overwrite",
+                        own.dim, own.h, own.origin[0], own.origin[1], own.origin[2]));
     own = grid;
 }
 

@@ -4,8 +4,10 @@
 /// constant/materialProperties: one dictionary a material: law, its parameters, density (see constitutive/);
 ///     initialStress and initialVelocity are seedParticles' own.
 /// constant/g: value (0 -9.8 0); absent: no gravity.
-/// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a plane
-///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all free.
+/// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a
+/// plane
+///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
+///     free.
 /// system/mpmSchemes:
 ///     shape         uGIMP;      // linear | uGIMP | cpGIMP
 ///     stressUpdate  MUSL;       // USF | USL | MUSL

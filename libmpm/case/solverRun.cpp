@@ -22,13 +22,16 @@ double now()
 
 std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
 {
-    const auto place = fmt::format("{} = {:g} m", axisNames[wall.axis],
-                                   grid.origin[wall.axis] + grid.h * double(wall.plane));
+    const auto place =
+        fmt::format("{} = {:g} m", axisNames[wall.axis], grid.origin[wall.axis] + grid.h * double(wall.plane));
     switch (wall.type)
     {
-    case nodal::WallType::fixed: return "fixed at " + place;
-    case nodal::WallType::roller: return "roller at " + place;
-    case nodal::WallType::friction: return fmt::format("friction {:g} at {}", wall.mu, place);
+    case nodal::WallType::fixed:
+        return "fixed at " + place;
+    case nodal::WallType::roller:
+        return "roller at " + place;
+    case nodal::WallType::friction:
+        return fmt::format("friction {:g} at {}", wall.mu, place);
     }
     return place;
 }
@@ -59,12 +62,13 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     stepping::beginLedger(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
     if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT)
-        throw InputError(control.where("deltaT"),
-                         fmt::format("deltaT: found {:g} s, c_p deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.2f}) for {} "
-                                     "with {} at c_p = {:.1f} m/s and h = {:g} m, or adjustTimeStep yes",
-                                     runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT,
-                                     limit_.deltaT, limit_.courant, stepping::stressUpdateName(scene_.scene.stressUpdate),
-                                     scene_.shape, limit_.waveSpeed, state_.grid.h));
+        throw InputError(
+            control.where("deltaT"),
+            fmt::format("deltaT: found {:g} s, c_p deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.2f}) for {} "
+                        "with {} at c_p = {:.1f} m/s and h = {:g} m, or adjustTimeStep yes",
+                        runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT, limit_.deltaT,
+                        limit_.courant, stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape,
+                        limit_.waveSpeed, state_.grid.h));
     if (!record.empty())
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
     storedTime_ = peakTime_ = state_.time;
@@ -80,9 +84,12 @@ TimeFolder SolverRun::startFolder() const
         throw InputError(folder_.folder().string() + ": found no time folder with a state.h5; run seedParticles first");
     switch (runTime_->start())
     {
-    case RunTime::Start::first: return folder_.firstTime();
-    case RunTime::Start::given: return folder_.nearestTime(runTime_->startTime());
-    case RunTime::Start::latest: return folder_.latestTime();
+    case RunTime::Start::first:
+        return folder_.firstTime();
+    case RunTime::Start::given:
+        return folder_.nearestTime(runTime_->startTime());
+    case RunTime::Start::latest:
+        return folder_.latestTime();
     }
     return folder_.latestTime();
 }
@@ -95,9 +102,10 @@ std::vector<std::string> SolverRun::laterTimes(const TimeFolder& start) const
         if (time.value > start.value)
             later.push_back(time.name);
     if (!later.empty() && !options_.overwrite)
-        throw InputError(fmt::format("{}: found stored times after the start at {}: {}; allowed: startFrom latestTime to go "
-                                     "on from the last, or -overwrite to remove them",
-                                     folder_.folder().string(), start.name, joinWords(later, " and ")));
+        throw InputError(
+            fmt::format("{}: found stored times after the start at {}: {}; allowed: startFrom latestTime to go "
+                        "on from the last, or -overwrite to remove them",
+                        folder_.folder().string(), start.name, joinWords(later, " and ")));
     return later;
 }
 
@@ -106,12 +114,12 @@ void SolverRun::banner() const
     const auto& s = scene_.scene;
     fmt::print("mpmSolve, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), instructionSet());
     line("case", std::filesystem::weakly_canonical(folder_.folder()).filename().string());
-    line("particles", fmt::format("{} in {} dimensions, from time {}", state_.particles.size(), state_.particles.dim,
-                                  lastStored_));
-    line("grid", state_.particles.dim == 2
-                     ? fmt::format("{} x {} cells of {:.6g} m", state_.grid.cells[0], state_.grid.cells[1], state_.grid.h)
-                     : fmt::format("{} x {} x {} cells of {:.6g} m", state_.grid.cells[0], state_.grid.cells[1],
-                                   state_.grid.cells[2], state_.grid.h));
+    line("particles",
+         fmt::format("{} in {} dimensions, from time {}", state_.particles.size(), state_.particles.dim, lastStored_));
+    line("grid", state_.particles.dim == 2 ? fmt::format("{} x {} cells of {:.6g} m", state_.grid.cells[0],
+                                                         state_.grid.cells[1], state_.grid.h)
+                                           : fmt::format("{} x {} x {} cells of {:.6g} m", state_.grid.cells[0],
+                                                         state_.grid.cells[1], state_.grid.cells[2], state_.grid.h));
     line("method", fmt::format("{}, {}, FLIP{}", scene_.shape, stepping::stressUpdateName(s.stressUpdate),
                                s.picRate > 0 ? fmt::format(" with {:g} 1/s of PIC", s.picRate) : ""));
     for (const auto& material : s.materials)
@@ -135,8 +143,8 @@ void SolverRun::banner() const
     else
         line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
-    line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT, limit_.courant,
-                                  limit_.waveSpeed * stepSize() / state_.grid.h));
+    line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
+                                  limit_.courant, limit_.waveSpeed * stepSize() / state_.grid.h));
     line("threads", fmt::format("{}, {} slabs", options_.threadCount(), state_.slabs));
 }
 
@@ -146,8 +154,7 @@ void SolverRun::openOutput()
     const bool fresh = state_.step == 0;
     // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
     const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();
-    const auto continueAt =
-        fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
+    const auto continueAt = fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
     const auto out = folder_.postProcessing();
     history_ = std::make_unique<output::CsvSeries>(out / "history.csv", stepping::historyColumns(), continueAt);
     budget_ = std::make_unique<output::CsvSeries>(out / "energyBudget.csv", stepping::budgetColumns(), continueAt);
@@ -195,7 +202,8 @@ void SolverRun::step()
     catch (const StepError& error)
     {
         progress_.reset();
-        throw StepError(fmt::format("{}\n    the last stored time is {}; nothing after it was kept", error.what(), lastStored_));
+        throw StepError(
+            fmt::format("{}\n    the last stored time is {}; nothing after it was kept", error.what(), lastStored_));
     }
     if (recorder_)
         recorder_->after(state_);
@@ -254,7 +262,9 @@ void SolverRun::warnings() const
     if (ledger.splitsPutOff > 0)
         line("note", fmt::format("{} particles wait at a wall for their split", ledger.splitsPutOff));
     if (ledger.splitsCapped > 0)
-        line("note", fmt::format("{} particles are longer than the threshold, at the cap of maxGeneration or maxParticles", ledger.splitsCapped));
+        line("note",
+             fmt::format("{} particles are longer than the threshold, at the cap of maxGeneration or maxParticles",
+                         ledger.splitsCapped));
     bool friction = false;
     for (const auto& wall : scene.walls)
         friction = friction || (wall.type == nodal::WallType::friction && wall.mu > 0);
@@ -279,22 +289,26 @@ void SolverRun::summary()
     const auto& p = stepper_->times();
     const double all = p.toGrid + p.nodal + p.toParticles + p.constitutive + p.sort + p.split;
     if (all > 0)
-        line("spent on", fmt::format("to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, strain and law {:.0f} %, sort "
-                                     "{:.0f} %, split {:.0f} %",
-                                     100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
-                                     100 * p.constitutive / all, 100 * p.sort / all, 100 * p.split / all));
+        line("spent on",
+             fmt::format("to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, strain and law {:.0f} %, sort "
+                         "{:.0f} %, split {:.0f} %",
+                         100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
+                         100 * p.constitutive / all, 100 * p.sort / all, 100 * p.split / all));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
     std::string extent;
     for (int a = 0; a < state_.particles.dim; ++a)
         extent += fmt::format("{} {:.3f} .. {:.3f} m{}", axisNames[a], t.extents.low[a], t.extents.high[a],
                               a + 1 < state_.particles.dim ? ", " : " (particle centres)");
     line("extent", extent);
-    line("energy", fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
-                               t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
-                               l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
-    line("residual", fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
-                                 supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));
-    line("apex", fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
+    line("energy",
+         fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
+                     t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
+                     l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
+    line("residual",
+         fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
+                     supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));
+    line("apex",
+         fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
     warnings();
     line("last time", lastStored_);
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// A run of the solver in a case folder: what mpmSolve does between its banner and its summary.
 ///
-/// Nothing is written before everything was read and checked. A state is written whole or not at all; when a step fails,
-/// the last stored time is named and untouched.
+/// Nothing is written before everything was read and checked. A state is written whole or not at all; when a step
+/// fails, the last stored time is named and untouched.
 #include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"

@@ -40,7 +40,8 @@ StrainRecorder::StrainRecorder(std::vector<Index> ids, const state::State& state
     for (const Index id : ids)
     {
         if (find(state, id) == state.particles.mass.size())
-            throw InputError(where, fmt::format("recordStrain: found no particle {}; ids are below {}", id, state.nextId));
+            throw InputError(where,
+                             fmt::format("recordStrain: found no particle {}; ids are below {}", id, state.nextId));
         paths_.push_back({id, deformation(state, id), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()});
     }
 }
@@ -64,13 +65,13 @@ Eigen::Matrix3d StrainRecorder::deformation(const state::State& state, Index id)
     return F;
 }
 
-void StrainRecorder::open(const std::filesystem::path& file, const state::State& state, std::optional<double> continueAt)
+void StrainRecorder::open(const std::filesystem::path& file, const state::State& state,
+                          std::optional<double> continueAt)
 {
     // a path starts anew where the recording does, so a continued run does not append to an older one
-    series_ = std::make_unique<output::CsvSeries>(
-        file,
-        std::vector<std::string>{"particle", "time", "exx", "eyy", "ezz", "exy", "eyz", "ezx", "sxx", "syy", "szz", "sxy",
-                                 "syz", "szx"});
+    series_ = std::make_unique<output::CsvSeries>(file, std::vector<std::string>{"particle", "time", "exx", "eyy",
+                                                                                 "ezz", "exy", "eyz", "ezx", "sxx",
+                                                                                 "syy", "szz", "sxy", "syz", "szx"});
     (void)continueAt;
     for (const auto& path : paths_)
         write(state, path);

@@ -7,8 +7,8 @@
 ///     particle,time,exx,eyy,ezz,exy,eyz,ezx,sxx,syy,szz,sxy,syz,szx
 /// Strains are the sums of dt D, stresses sigma, both in the frame that turns with the particle: Q <- dR Q with the
 /// increment dR of the stress update, starting at Q = I when the recording starts; tensor components. dt L is the
-/// logarithm of F_new F_old^-1, so nothing is added to the step itself. A run that goes on from a stored time records anew
-/// from there: strain and frame are not part of a state.
+/// logarithm of F_new F_old^-1, so nothing is added to the step itself. A run that goes on from a stored time records
+/// anew from there: strain and frame are not part of a state.
 #include "dictionary/dictionary.hpp"
 #include "output/csvSeries.hpp"
 #include "state/state.hpp"

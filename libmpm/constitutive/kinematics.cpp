@@ -107,9 +107,9 @@ void rotateStress(const TensorLanes<3>& L, double dt, StressLanes<3>& stress)
         const double q1 = 0.25 * dt * (L[2][l] - L[6][l]);
         const double q2 = 0.25 * dt * (L[3][l] - L[1][l]);
         const double b = 2 / (1 + q0 * q0 + q1 * q1 + q2 * q2);
-        const double R[9] = {1 - b * (q1 * q1 + q2 * q2), b * (q0 * q1 - q2),           b * (q0 * q2 + q1),
-                             b * (q0 * q1 + q2),          1 - b * (q0 * q0 + q2 * q2),  b * (q1 * q2 - q0),
-                             b * (q0 * q2 - q1),          b * (q1 * q2 + q0),           1 - b * (q0 * q0 + q1 * q1)};
+        const double R[9] = {1 - b * (q1 * q1 + q2 * q2), b * (q0 * q1 - q2),          b * (q0 * q2 + q1),
+                             b * (q0 * q1 + q2),          1 - b * (q0 * q0 + q2 * q2), b * (q1 * q2 - q0),
+                             b * (q0 * q2 - q1),          b * (q1 * q2 + q0),          1 - b * (q0 * q0 + q1 * q1)};
         const double xx = stress[0][l], yy = stress[1][l], zz = stress[2][l];
         const double xy = stress[3][l], yz = stress[4][l], zx = stress[5][l];
         const double S[9] = {xx, xy, zx, xy, yy, yz, zx, yz, zz};
@@ -179,8 +179,8 @@ void stretchDiagonal(const TensorLanes<2>& F, double (&U)[2][lanes])
     }
 }
 
-// R by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (Higham 1986); nine steps converge to round-off
-// for stretch ratios up to 1e6. Then U = R^T F.
+// R by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (Higham 1986); nine steps converge to
+// round-off for stretch ratios up to 1e6. Then U = R^T F.
 void stretchDiagonal(const TensorLanes<3>& F, double (&U)[3][lanes])
 {
     for (int l = 0; l < lanes; ++l)

@@ -109,17 +109,18 @@ std::string soilTestHelp()
     std::string text = "Paths (small strains, fixed axes, tension positive):\n";
     for (const auto& test : soilTestCatalogue())
         text += fmt::format("  {:<12} {}\n", test.name, test.help);
-    return text + "  FILE.csv     total strains in columns exx, eyy, ezz, exy, eyz, ezx (tensor components)\n\n"
-                  "DICT is one material as in constant/materialProperties; it may hold the set-up of the test:\n"
-                  "  test\n  {\n"
-                  "    confiningStress 100e3;  // [Pa] compression at the start, cell pressure (oedometer: 0)\n"
-                  "    K0              0.7;    // lateral over vertical stress at the start (default nu/(1 - nu))\n"
-                  "    maxStrain       0.05;   // axial compression, or gamma = 2 exy (oedometer: 0.01)\n"
-                  "    steps           500;    // of the test; between the rows of a table: 1\n"
-                  "    startStress     (0 0 0 0 0 0);  // [Pa] xx yy zz xy yz zx, for a table\n  }\n\n"
-                  "Writes step, strains, stresses, meanStress, deviatorStress, volumetricStrain, plasticWork, region; the\n"
-                  "figure (.png, .svg) goes beside the table. -trial reads E_Pa, nu, c_Pa, phi_deg, psi_deg, tr_xx,\n"
-                  "tr_yy, tr_zz, tr_xy, tr_yz, tr_zx of each row and adds region, ret_xx ... ret_zx: Mohr-Coulomb's return.";
+    return text +
+           "  FILE.csv     total strains in columns exx, eyy, ezz, exy, eyz, ezx (tensor components)\n\n"
+           "DICT is one material as in constant/materialProperties; it may hold the set-up of the test:\n"
+           "  test\n  {\n"
+           "    confiningStress 100e3;  // [Pa] compression at the start, cell pressure (oedometer: 0)\n"
+           "    K0              0.7;    // lateral over vertical stress at the start (default nu/(1 - nu))\n"
+           "    maxStrain       0.05;   // axial compression, or gamma = 2 exy (oedometer: 0.01)\n"
+           "    steps           500;    // of the test; between the rows of a table: 1\n"
+           "    startStress     (0 0 0 0 0 0);  // [Pa] xx yy zz xy yz zx, for a table\n  }\n\n"
+           "Writes step, strains, stresses, meanStress, deviatorStress, volumetricStrain, plasticWork, region; the\n"
+           "figure (.png, .svg) goes beside the table. -trial reads E_Pa, nu, c_Pa, phi_deg, psi_deg, tr_xx,\n"
+           "tr_yy, tr_zz, tr_xy, tr_yz, tr_zx of each row and adds region, ret_xx ... ret_zx: Mohr-Coulomb's return.";
 }
 
 std::string requireSoilTest(const std::string& path)

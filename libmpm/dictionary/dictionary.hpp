@@ -17,9 +17,9 @@
 ///     #include "../constant/other"                       // also <case>/ <system>/ <constant>/ <etc>/, #includeEtc
 ///
 /// Macros find their words as in OpenFOAM 1912: `$E` here, then in the dictionaries around; `$sub.E` in sub of this
-/// dictionary only; `$..E` one dictionary up, `$...E` two; `$:soil.E` from the top; `${E}` the same as `$E`. A word must
-/// stand before the macro that uses it, and a dictionary has no name before its closing brace. The environment is not
-/// looked into.
+/// dictionary only; `$..E` one dictionary up, `$...E` two; `$:soil.E` from the top; `${E}` the same as `$E`. A word
+/// must stand before the macro that uses it, and a dictionary has no name before its closing brace. The environment is
+/// not looked into.
 ///
 /// Stricter than OpenFOAM: a word given twice is an error (except the FoamFile header), unless it first came through
 /// `$dict;` or #include and is then replaced by what stands in the dictionary itself, nested dictionaries being merged;
@@ -30,9 +30,9 @@
 /// question (get, choose, subDict, found) leaves its word in the dictionary's schema. A word only macros use counts as
 /// read.
 ///
-/// Text nobody vouches for does no harm: files up to 4 MB, 64 MB for the tree with its macros expanded, nesting up to 100,
-/// includes up to 10 deep and 200 in all, and only from the case folder and the project's etc, symbolic links followed.
-/// tests/unit/dictionaryMistakes.txt lists what is refused and the messages, word for word.
+/// Text nobody vouches for does no harm: files up to 4 MB, 64 MB for the tree with its macros expanded, nesting up to
+/// 100, includes up to 10 deep and 200 in all, and only from the case folder and the project's etc, symbolic links
+/// followed. tests/unit/dictionaryMistakes.txt lists what is refused and the messages, word for word.
 #include "base/error.hpp"
 #include "base/types.hpp"
 

@@ -17,9 +17,9 @@ struct Wall
 {
     std::string name;
     WallType type = WallType::roller;
-    int axis = 1;            ///< 0, 1, 2: the axis it is normal to
-    int side = -1;           ///< -1: outward normal along -axis (a floor), +1: along +axis
-    Index plane = 0;         ///< lattice index of the wall's plane of nodes
+    int axis = 1;    ///< 0, 1, 2: the axis it is normal to
+    int side = -1;   ///< -1: outward normal along -axis (a floor), +1: along +axis
+    Index plane = 0; ///< lattice index of the wall's plane of nodes
     double mu = 0;
     bool separation = false;
 };

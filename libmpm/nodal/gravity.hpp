@@ -4,8 +4,8 @@
 ///     dimensions [0 1 -2 0 0 0 0];     // constant/g
 ///     value      (0 -9.8 0);
 ///
-/// Work sum dt m_i g . (v_i + v*)/2 (METHOD, Energy) is booked after the walls, so that it is the work gravity does on the
-/// motion that happens. Verified in tests/unit/stepper.cpp (free fall) and by the self-weight column.
+/// Work sum dt m_i g . (v_i + v*)/2 (METHOD, Energy) is booked after the walls, so that it is the work gravity does on
+/// the motion that happens. Verified in tests/unit/stepper.cpp (free fall) and by the self-weight column.
 #include "nodal/nodeRow.hpp"
 
 namespace mpm::nodal

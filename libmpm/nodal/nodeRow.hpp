@@ -13,14 +13,14 @@ namespace mpm::nodal
 /// Energies and impulses of one step, summed over nodes. Per metre in 2D.
 struct NodeSums
 {
-    double kineticBefore = 0;   ///< sum m v_i^2/2 [J]
-    double kineticAfter = 0;    ///< sum m v*^2/2 [J]
-    double gravityWork = 0;     ///< sum dt m b . (v_i + v*)/2 [J]
-    double tractionWork = 0;    ///< sum dt f_tau . (v_i + v*)/2 [J]
-    double frictionLoss = 0;    ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
-    double forceWork = 0;       ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;        ///< the same for every other wall impulse J [J]
-    Index contacts = 0;         ///< nodes at which a friction wall pressed
+    double kineticBefore = 0;                ///< sum m v_i^2/2 [J]
+    double kineticAfter = 0;                 ///< sum m v*^2/2 [J]
+    double gravityWork = 0;                  ///< sum dt m b . (v_i + v*)/2 [J]
+    double tractionWork = 0;                 ///< sum dt f_tau . (v_i + v*)/2 [J]
+    double frictionLoss = 0;                 ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double forceWork = 0;                    ///< sum dt f . v* over the projected forces [J]
+    double wallLoss = 0;                     ///< the same for every other wall impulse J [J]
+    Index contacts = 0;                      ///< nodes at which a friction wall pressed
     Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
 
     NodeSums& operator+=(const NodeSums& o)
@@ -45,11 +45,11 @@ struct NodeSums
 template <int dim>
 struct NodeRow
 {
-    Index begin = 0, end = 0;          ///< lattice indices along x
-    Index j = 0, k = 0;                ///< lattice indices of the row
-    Record* node = nullptr;            ///< node[i], begin <= i < end
+    Index begin = 0, end = 0; ///< lattice indices along x
+    Index j = 0, k = 0;       ///< lattice indices of the row
+    Record* node = nullptr;   ///< node[i], begin <= i < end
     double dt = 0;
-    double smallestMass = 0;           ///< nodes lighter than this carry nothing
+    double smallestMass = 0; ///< nodes lighter than this carry nothing
     NodeSums* sums = nullptr;
     /// What walls did at each node of the row, all empty while none touched it.
     struct WallScratch

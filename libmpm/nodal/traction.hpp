@@ -1,14 +1,14 @@
 #pragma once
 /// Surface load on a named boundary, the tau term of METHOD Eq. 3: f_i += int N_i tau dS, one point per surface element
-/// at its centre, hat functions N_i. Elements are carried with the material: centre by v*, edges by its gradient, so that
-/// the loaded area follows the deformation.
+/// at its centre, hat functions N_i. Elements are carried with the material: centre by v*, edges by its gradient, so
+/// that the loaded area follows the deformation.
 ///
 ///     top { type traction; value (0 -1e3 0); }   // constant/boundaryConditions, Pa of current area, any direction
 ///     top { type pressure; value 1e3; }          // Pa, along the inward normal of the deformed element
 ///
-/// Where a hat reaches a node without mass (linear shape near a surface), the element's weights are renormalised over the
-/// nodes that carry mass, so no load is lost; an element with no such node is a StepError.
-/// Verified in tests/unit/traction.cpp.
+/// Where a hat reaches a node without mass (linear shape near a surface), the element's weights are renormalised over
+/// the nodes that carry mass, so no load is lost; an element with no such node is a StepError. Verified in
+/// tests/unit/traction.cpp.
 #include "nodal/boundaries.hpp"
 #include "state/gridBox.hpp"
 #include "state/nodeGrid.hpp"
@@ -47,6 +47,8 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 
 extern template class Traction<2>;
 extern template class Traction<3>;
-extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
-extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double,
+                                  double);
+extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double,
+                                  double);
 } // namespace mpm::nodal

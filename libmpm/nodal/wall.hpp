@@ -4,8 +4,8 @@
 ///     fixed     u = 0
 ///     roller    u.n = 0, tangentially free
 ///     friction  u_n = 0 and u_t <- u_t max(0, 1 - mu (u.n)/|u_t|) where u.n > 0
-/// With separation the wall only pushes (acts where u.n > 0); without, it also holds. Friction walls separate, fixed and
-/// roller walls hold, unless the dictionary says otherwise. A wall that holds rubs with its push alone.
+/// With separation the wall only pushes (acts where u.n > 0); without, it also holds. Friction walls separate, fixed
+/// and roller walls hold, unless the dictionary says otherwise. A wall that holds rubs with its push alone.
 ///
 ///     base                         // constant/boundaryConditions: a physical name of the geometry, or any name with
 ///     {                            // a plane

@@ -99,27 +99,23 @@ MohrCoulombRates::Rate MohrCoulombRates::rate(Region region, const Frame& frame,
     {
     case Region::elastic:
         break;
-    case Region::face:
-    {
+    case Region::face: {
         const double lambda = (k_ * n1.dot(T * n1) - n3.dot(T * n3)) / (coupling + 2 * shear_ * (k_ * m_ + 1));
         return {T - lambda * elastic(m_ * dyad(n1) - dyad(n3)), lambda};
     }
-    case Region::edge1:
-    {
+    case Region::edge1: {
         const Plane t = inPlane(T, n1, n2);
         const double sum = (k_ * t.mean - n3.dot(T * n3)) / (coupling + shear_ * (k_ * m_ + 2));
         const Matrix3d P = t.deviator / (2 * shear_ * m_) + 0.5 * sum * (dyad(n1) + dyad(n2));
         return {T - elastic(m_ * P - sum * dyad(n3)), 0.5 * sum - t.half / (2 * shear_ * m_)};
     }
-    case Region::edge2:
-    {
+    case Region::edge2: {
         const Plane t = inPlane(T, n2, n3);
         const double sum = (k_ * n1.dot(T * n1) - t.mean) / (coupling + shear_ * (2 * k_ * m_ + 1));
         const Matrix3d Q = -t.deviator / (2 * shear_) + 0.5 * sum * (dyad(n2) + dyad(n3));
         return {T - elastic(m_ * sum * dyad(n1) - Q), 0.5 * sum - t.half / (2 * shear_)};
     }
-    case Region::apex:
-    {
+    case Region::apex: {
         const Vector3d e = sortedFrame(strainRate).values;
         return {Matrix3d::Zero(), std::min(e(0) + e(1) + m_ * e(2), e(0) + m_ * (e(1) + e(2)))};
     }

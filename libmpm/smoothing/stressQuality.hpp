@@ -2,11 +2,12 @@
 /// How physical a stress field is: numbers for nodal, raw (particle) and smoothed vertical stress.
 ///     N         RMS(raw - smoothed)/RMS(smoothed): 0.1 for an elastic body, above 1 where stresses are erratic
 ///     N by mass the same with means weighted by mass, so that crumbs of split particles count as little as they weigh
-///     N floor   the same for the overburden in place of the raw stress: what Eqs. 11 and 12 alone change in a field that
+///     N floor   the same for the overburden in place of the raw stress: what Eqs. 11 and 12 alone change in a field
+///     that
 ///               is not erratic at all
 ///     error, correlation: root mean square difference and Pearson's correlation with overburden
-/// Other means run over particles (over nodes that carry mass for nodal), each counted once. A correlation with a constant is
-/// not a number.
+/// Other means run over particles (over nodes that carry mass for nodal), each counted once. A correlation with a
+/// constant is not a number.
 #include "smoothing/overburden.hpp"
 #include "smoothing/smoothStress.hpp"
 
@@ -24,11 +25,11 @@ struct StressQuality
 {
     int axis = 1; ///< of the normal stress looked at
     FieldQuality nodal, raw, smoothed;
-    double noise = 0;      ///< N
+    double noise = 0;       ///< N
     double noiseByMass = 0; ///< N by mass
-    double noiseFloor = 0; ///< N floor
-    Vector3 worstPlace{};  ///< centre of the particle where smoothed and overburden differ most [m]
-    double worstError = 0; ///< smoothed - overburden there [Pa]
+    double noiseFloor = 0;  ///< N floor
+    Vector3 worstPlace{};   ///< centre of the particle where smoothed and overburden differ most [m]
+    double worstError = 0;  ///< smoothed - overburden there [Pa]
 };
 
 FieldQuality fieldQuality(const std::vector<double>& values, const std::vector<double>& overburden);

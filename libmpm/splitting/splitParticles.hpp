@@ -3,9 +3,9 @@
 /// F l0_k; a particle is split when an edge is longer than threshold times the seeding spacing.
 ///     fourWay     all edges are halved (4 children in 2D, 8 in 3D)
 ///     stretched   only edges over the threshold are halved
-/// Children copy F, v and sigma and halve l0, m and V along split edges; centres at x_p +- F l0_k/4. If a child's domain
-/// would cross a wall, all offsets of that particle shrink by one common factor, so mass, momentum and centre stay exact;
-/// below 0.1 the split is put off and counted.
+/// Children copy F, v and sigma and halve l0, m and V along split edges; centres at x_p +- F l0_k/4. If a child's
+/// domain would cross a wall, all offsets of that particle shrink by one common factor, so mass, momentum and centre
+/// stay exact; below 0.1 the split is put off and counted.
 ///
 ///     splitting                    // mpmSchemes; absent: no splitting
 ///     {
@@ -46,10 +46,10 @@ struct Barrier
 
 struct Outcome
 {
-    Index split = 0;   ///< particles that were split
-    Index added = 0;   ///< particles more than before
-    Index putOff = 0;  ///< put off at a wall
-    Index capped = 0;  ///< refused by a cap
+    Index split = 0;  ///< particles that were split
+    Index added = 0;  ///< particles more than before
+    Index putOff = 0; ///< put off at a wall
+    Index capped = 0; ///< refused by a cap
 };
 
 /// Splits once where the rule asks for it (children are looked at again the next time), in the order of the particles.

@@ -9,9 +9,9 @@ namespace mpm::state
 struct GridBox
 {
     int dim = 2;
-    Vector3 origin{};              ///< lower corner [m]
-    double h = 0;                  ///< cell size [m]
-    std::array<Index, 3> cells{};  ///< number of cells an axis (1 along unused axes)
+    Vector3 origin{};             ///< lower corner [m]
+    double h = 0;                 ///< cell size [m]
+    std::array<Index, 3> cells{}; ///< number of cells an axis (1 along unused axes)
 
     double upper(int axis) const { return origin[axis] + h * double(cells[axis]); }
     bool contains(const Vector3& p) const

@@ -19,10 +19,7 @@ struct NodeWindow
     AlignedVector<Record> nodes;
 
     Index rows() const { return n[1] * n[2]; }
-    Index offset(Index i, Index j, Index k) const
-    {
-        return ((k - lo[2]) * n[1] + (j - lo[1])) * n[0] + (i - lo[0]);
-    }
+    Index offset(Index i, Index j, Index k) const { return ((k - lo[2]) * n[1] + (j - lo[1])) * n[0] + (i - lo[0]); }
     Record* row(Index j, Index k) { return nodes.data() + ((k - lo[2]) * n[1] + (j - lo[1])) * n[0]; }
     const Record* row(Index j, Index k) const { return nodes.data() + ((k - lo[2]) * n[1] + (j - lo[1])) * n[0]; }
 

@@ -27,12 +27,12 @@ struct Particles
     /// Lengths of the initial edge vectors [m]. The seeding lattice follows the axes, so edge k starts as
     /// l0_k = length0[k] e_k; the deformed edge is F l0_k = length0[k] times column k of F. Splitting halves it.
     std::array<Column<double>, 3> length0;
-    Column<double> mass;    ///< [kg], per metre in 2D
-    Column<double> volume0; ///< initial volume [m^3], m^2 in 2D
-    Column<double> volume;  ///< current volume V = V0 det F
-    Column<std::int64_t> id;       ///< immutable; children of a split get new ids, the first child keeps its parent's
-    Column<std::int64_t> sortKey;  ///< cell key at the last sort; (sortKey, id) is the order in memory
-    Column<std::int32_t> material; ///< index into State::materials
+    Column<double> mass;             ///< [kg], per metre in 2D
+    Column<double> volume0;          ///< initial volume [m^3], m^2 in 2D
+    Column<double> volume;           ///< current volume V = V0 det F
+    Column<std::int64_t> id;         ///< immutable; children of a split get new ids, the first child keeps its parent's
+    Column<std::int64_t> sortKey;    ///< cell key at the last sort; (sortKey, id) is the order in memory
+    Column<std::int32_t> material;   ///< index into State::materials
     Column<std::int32_t> generation; ///< number of splits behind the particle
 
     Index size() const { return size_; }

@@ -12,31 +12,31 @@ namespace mpm::state
 /// Energies [J, per metre in 2D] and counts summed since the start of the run. Positive losses left the body.
 struct Ledger
 {
-    double plasticDissipation = 0; ///< sum V sigma_mid : dEps_p
+    double plasticDissipation = 0;  ///< sum V sigma_mid : dEps_p
     double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
-    double wallLoss = 0;           ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
-    double splitMergeLoss = 0;     ///< kinetic and elastic energy lost by splitting and merging
-    /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on the
-    /// change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
+    double wallLoss = 0;       ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
+    double splitMergeLoss = 0; ///< kinetic and elastic energy lost by splitting and merging
+    /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on
+    /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
     double transferLoss = 0;
-    double pendingForceWork = 0;   ///< sum dt f_int . v* of the last step, waiting for the strains it belongs to
-    double gravityWork = 0;        ///< sum dt m_i b . (v_i + v*)/2
-    double tractionWork = 0;       ///< sum dt f_tau . (v_i + v*)/2
-    double apexVolume = 0;         ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double bodyForceWork = 0;      ///< work of prescribed body forces other than gravity
-    double kineticEnergy = 0;      ///< of the particles, now
+    double pendingForceWork = 0; ///< sum dt f_int . v* of the last step, waiting for the strains it belongs to
+    double gravityWork = 0;      ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;     ///< sum dt f_tau . (v_i + v*)/2
+    double apexVolume = 0;       ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double bodyForceWork = 0;    ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0;    ///< of the particles, now
     double initialKineticEnergy = 0;
     double initialStrainEnergy = 0;
-    Vector3 wallImpulse{};         ///< impulse of the walls on the body [N s]
-    Vector3 gravityImpulse{};      ///< impulse of gravity [N s]
-    Vector3 tractionImpulse{};     ///< impulse of tractions [N s]
-    Vector3 initialMomentum{};     ///< momentum at the start [N s]
+    Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]
+    Vector3 gravityImpulse{};        ///< impulse of gravity [N s]
+    Vector3 tractionImpulse{};       ///< impulse of tractions [N s]
+    Vector3 initialMomentum{};       ///< momentum at the start [N s]
     double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
-    Index apexReturns = 0;         ///< particle returns to the apex
-    Index splits = 0;              ///< particles split
-    Index splitsPutOff = 0;        ///< particles whose split is put off at a wall, at the last look
-    Index splitsCapped = 0;        ///< particles whose split the caps on size and count refuse, at the last look
-    Index wallContacts = 0;        ///< nodes and steps at which a friction wall pressed
+    Index apexReturns = 0;           ///< particle returns to the apex
+    Index splits = 0;                ///< particles split
+    Index splitsPutOff = 0;          ///< particles whose split is put off at a wall, at the last look
+    Index splitsCapped = 0;          ///< particles whose split the caps on size and count refuse, at the last look
+    Index wallContacts = 0;          ///< nodes and steps at which a friction wall pressed
 };
 
 /// A named part of the body's surface, carried with the material: segments in 2D, triangles in 3D. Element e has its
@@ -54,12 +54,12 @@ struct State
 {
     explicit State(int dim = 2) : particles(dim) { grid.dim = dim; }
 
-    double time = 0;    ///< [s]
-    Index step = 0;     ///< steps done since the start
-    double deltaT = 0;  ///< last time step used [s]; 0 before the first
-    Index slabs = 0;    ///< number of particle slabs sums are ordered by; 0: not chosen yet
-    Vector3 seedSpacing{};     ///< lattice spacing of the seeding [m]
-    Index nextId = 0;   ///< the next unused particle id
+    double time = 0;       ///< [s]
+    Index step = 0;        ///< steps done since the start
+    double deltaT = 0;     ///< last time step used [s]; 0 before the first
+    Index slabs = 0;       ///< number of particle slabs sums are ordered by; 0: not chosen yet
+    Vector3 seedSpacing{}; ///< lattice spacing of the seeding [m]
+    Index nextId = 0;      ///< the next unused particle id
     GridBox grid;
     Particles particles;
     std::vector<std::string> materials; ///< names, by Particles::material

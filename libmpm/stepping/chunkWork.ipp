@@ -184,8 +184,8 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, constitutive::Chunk<dim>
     }
 }
 
-/// Half lengths of the domains over h: initial edges (uGIMP), or following the right stretch (cpGIMP). Domains wider than
-/// the shape's support allows are held there and counted.
+/// Half lengths of the domains over h: initial edges (uGIMP), or following the right stretch (cpGIMP). Domains wider
+/// than the shape's support allows are held there and counted.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::domainsOfChunk(Index first, SlabSums& sums)
 {

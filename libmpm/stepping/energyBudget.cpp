@@ -60,12 +60,34 @@ double residual(const state::Ledger& l, double strainEnergy)
 
 const std::vector<std::string>& historyColumns()
 {
-    static const std::vector<std::string> columns = {
-        "time",         "dt",           "particles",          "mass",                "volume",
-        "apexVolume",   "momentumX",    "momentumY",          "momentumZ",           "wallImpulseX",
-        "wallImpulseY", "wallImpulseZ", "kineticEnergy",      "strainEnergy",        "plasticDissipation",
-        "frictionDissipation", "splitMergeLoss", "transferLoss", "gravityWork",      "residual",
-        "apexReturns",  "maxYieldViolation", "minX", "maxX", "minY", "maxY", "minZ", "maxZ"};
+    static const std::vector<std::string> columns = {"time",
+                                                     "dt",
+                                                     "particles",
+                                                     "mass",
+                                                     "volume",
+                                                     "apexVolume",
+                                                     "momentumX",
+                                                     "momentumY",
+                                                     "momentumZ",
+                                                     "wallImpulseX",
+                                                     "wallImpulseY",
+                                                     "wallImpulseZ",
+                                                     "kineticEnergy",
+                                                     "strainEnergy",
+                                                     "plasticDissipation",
+                                                     "frictionDissipation",
+                                                     "splitMergeLoss",
+                                                     "transferLoss",
+                                                     "gravityWork",
+                                                     "residual",
+                                                     "apexReturns",
+                                                     "maxYieldViolation",
+                                                     "minX",
+                                                     "maxX",
+                                                     "minY",
+                                                     "maxY",
+                                                     "minZ",
+                                                     "maxZ"};
     return columns;
 }
 

@@ -6,8 +6,8 @@
 ///     frictionDissipation  - sum dt f_t . (v_i + v*)/2 over friction walls
 ///     wallLoss             - the same for all other wall forces (impact on walls)
 ///     transferLoss         (change of grid KE) - (change of particle KE), and in USF and MUSL, whose strains see a
-///                          projected velocity w, - sum dt f_int . (v* - w)/2: the stress at both ends of a step works on w
-///                          where the forces worked on v*
+///                          projected velocity w, - sum dt f_int . (v* - w)/2: the stress at both ends of a step works
+///                          on w where the forces worked on v*
 ///     splitMergeLoss       energy lost by splitting
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     residual             gravityWork + tractionWork + bodyForceWork

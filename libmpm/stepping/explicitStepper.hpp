@@ -37,11 +37,11 @@ class ExplicitStepper : public Stepper
 
     struct Half
     {
-        bool strain = false;   ///< take velocity gradients from lanes `gradientLane` and update F and stress
-        bool velocity = false; ///< v += dt a
-        bool position = false; ///< x += dt v*
+        bool strain = false;    ///< take velocity gradients from lanes `gradientLane` and update F and stress
+        bool velocity = false;  ///< v += dt a
+        bool position = false;  ///< x += dt v*
         bool reproject = false; ///< add m v of the updated particles to the slab's window
-        int gradientLane = 1;  ///< 1: v*, 1 + dim: w
+        int gradientLane = 1;   ///< 1: v*, 1 + dim: w
     };
 
     // passes
@@ -82,7 +82,7 @@ class ExplicitStepper : public Stepper
     std::vector<SlabSums> slabSums_;
     std::vector<nodal::NodeSums> rowSums_;
     double smallestMass_ = 0;
-    double time_ = 0;      ///< at the start of the step
+    double time_ = 0; ///< at the start of the step
     StepReport report_;
     PassTimes times_;
 };

@@ -166,8 +166,8 @@ void ExplicitStepper<dim, Shape>::coverParticles()
                     range += fmt::format("{}[{:g}, {:g}]", a ? " x " : "", box.origin[a], box.upper(a));
                 }
                 if (!box.contains(x))
-                    fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict", place,
-                                        range));
+                    fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict",
+                                        place, range));
             }
     grid_.coverSlabs();
     rowSums_.assign(std::size_t(grid_.common.rows()), {});
@@ -263,8 +263,9 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
     for (const auto& s : slabSums_)
     {
         if (s.badParticle >= 0)
-            fail(s.badParticle, "is turned inside out or no longer finite (det F <= 0): a smaller deltaT, finer particles "
-                                "(splitting) or a stiffer material is needed there");
+            fail(s.badParticle,
+                 "is turned inside out or no longer finite (det F <= 0): a smaller deltaT, finer particles "
+                 "(splitting) or a stiffer material is needed there");
         total.kinetic += s.kinetic;
         total.plasticWork += s.plasticWork;
         total.apexVolume += s.apexVolume;
@@ -286,8 +287,8 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
     }
     if (half.strain)
     {
-        // Strains see a projected velocity w, the forces worked on v*: half of f_int . (v* - w) dt belongs to the stress
-        // at either end of the step. USL takes its strains from v* itself.
+        // Strains see a projected velocity w, the forces worked on v*: half of f_int . (v* - w) dt belongs to the
+        // stress at either end of the step. USL takes its strains from v* itself.
         if (scene_.stressUpdate != StressUpdate::USL && (state_.step > 0 || half.position))
             ledger.transferLoss -= 0.5 * (ledger.pendingForceWork + total.strainWork);
         ledger.plasticDissipation += total.plasticWork;

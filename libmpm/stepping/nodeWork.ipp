@@ -63,7 +63,8 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         nodal::endRow(row, 1 / dt);
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
-                row.sums->forceWork += dt * (*row.projected)[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
+                row.sums->forceWork +=
+                    dt * (*row.projected)[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
     });
     nodal::NodeSums sums;
     for (const auto& row : rowSums_)
@@ -71,8 +72,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     auto& ledger = state_.ledger;
     ledger.pendingForceWork = sums.forceWork;
     for (const auto& traction : tractions_)
-        ledger.pendingForceWork -=
-            traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
+        ledger.pendingForceWork -= traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;

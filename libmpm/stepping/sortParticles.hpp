@@ -1,6 +1,6 @@
 #pragma once
-/// Order of the particles in memory: by (key, id), the key being the first node of the shape's support, counted z, y, x.
-/// Neighbours in memory then share nodes, and the order depends on the state alone (METHOD, Reproducibility).
+/// Order of the particles in memory: by (key, id), the key being the first node of the shape's support, counted z, y,
+/// x. Neighbours in memory then share nodes, and the order depends on the state alone (METHOD, Reproducibility).
 #include "state/state.hpp"
 
 namespace mpm::stepping

@@ -71,8 +71,8 @@ class Stepper
 {
   public:
     virtual ~Stepper() = default;
-    /// Advances the state by dt. Throws StepError (particle outside the grid, det F <= 0, numbers no longer finite) with
-    /// the state's arrays no longer usable: go back to the last good state.
+    /// Advances the state by dt. Throws StepError (particle outside the grid, det F <= 0, numbers no longer finite)
+    /// with the state's arrays no longer usable: go back to the last good state.
     virtual void step(double dt) = 0;
     virtual const StepReport& report() const = 0;
     virtual const PassTimes& times() const = 0;

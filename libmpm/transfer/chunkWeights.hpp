@@ -21,8 +21,8 @@ struct ChunkWeights
     {
         const double invH = 1 / grid.h;
         for (int a = 0; a < dim; ++a)
-            Shape::evaluate(p.x[a].data() + first, Shape::hasDomain ? lambda[a].data() + first : nullptr, grid.origin[a],
-                            invH, axis[a]);
+            Shape::evaluate(p.x[a].data() + first, Shape::hasDomain ? lambda[a].data() + first : nullptr,
+                            grid.origin[a], invH, axis[a]);
     }
 
     /// offset[l] = index in `window` of node (0, 0, 0) of lane l's support.

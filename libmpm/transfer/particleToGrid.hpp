@@ -2,8 +2,8 @@
 /// Projection of particles to nodes, METHOD Eqs. 2, 3 and 7:
 ///     m_i = sum m_p N_ip,   p_i = sum m_p v_p N_ip,   f_i = - sum V_p sigma_p . gradN_ip + sum m_p b_p N_ip
 /// A particle's contribution to node (a, b, c) is N A + dN/dx B_x + dN/dy B_y + dN/dz B_z with records
-/// A = (m, m v, m b), B_k = (0, 0, -V sigma_k). Lanes of a run share the first node (particles are sorted), so the run is
-/// summed in registers and added to memory once.
+/// A = (m, m v, m b), B_k = (0, 0, -V sigma_k). Lanes of a run share the first node (particles are sorted), so the run
+/// is summed in registers and added to memory once.
 #include "transfer/chunkWeights.hpp"
 
 namespace mpm::transfer
@@ -15,7 +15,7 @@ enum class Project
 };
 
 template <int dim, int n>
-inline constexpr int supportNodes = dim == 2 ? n * n : n * n * n;
+inline constexpr int supportNodes = dim == 2 ? n* n : n* n* n;
 /// Records of all nodes of a support.
 template <int dim, int n>
 using Support = Record[supportNodes<dim, n>];

@@ -14,8 +14,12 @@ namespace
 /// 1 m x 1 m (x 1 m) of soil on the floor of a grid of 4 m x 2 m (x 2 m), cells of 0.5 m.
 state::State soil(int dim = 2)
 {
-    return scenes::seedBlock(
-        {.dim = dim, .corner = {1, 0, 0}, .n = {4, 4, 4}, .spacing = 0.25, .h = 0.5, .cells = {8, 4, dim == 3 ? 4 : 1}});
+    return scenes::seedBlock({.dim = dim,
+                              .corner = {1, 0, 0},
+                              .n = {4, 4, 4},
+                              .spacing = 0.25,
+                              .h = 0.5,
+                              .cells = {8, 4, dim == 3 ? 4 : 1}});
 }
 
 stepping::Scene read(const std::string& text, const state::State& state)
@@ -57,9 +61,9 @@ TEST_CASE("walls that cannot do what they say are refused by name")
 {
     const auto state = soil();
     // a normal into the soil would hold all of it
-    CHECK_THROWS_WITH(read(wall("base", "0 1 0", "0"), state),
-                      Contains("boundaryConditions:1") && Contains("base") && Contains("behind the wall") &&
-                          Contains("out of the soil"));
+    CHECK_THROWS_WITH(read(wall("base", "0 1 0", "0"), state), Contains("boundaryConditions:1") && Contains("base") &&
+                                                                   Contains("behind the wall") &&
+                                                                   Contains("out of the soil"));
     CHECK_NOTHROW(read(wall("base", "0 1 0", "1"), state));
     // out of reach
     CHECK_THROWS_WITH(read(wall("base", "0 -1 0", "-0.5"), state), Contains("outside the grid"));

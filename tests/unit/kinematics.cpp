@@ -1,4 +1,5 @@
-// Finite motion of one step against closed forms and Eigen: exponential, volume in rotation, rotation of stress, stretch.
+// Finite motion of one step against closed forms and Eigen: exponential, volume in rotation, rotation of stress,
+// stretch.
 #include "constitutive/kinematics.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // From seeds to a state: initial stress, patches, materials, and the dictionaries that ask for them.
+#include "seeding/seedState.hpp"
 #include "base/error.hpp"
 #include "case/gridFromDict.hpp"
 #include "geometry/region3D.hpp"
 #include "seeding/seedReport.hpp"
-#include "seeding/seedState.hpp"
 #include "seeding/surfacePatches.hpp"
 #include "support/shapes.hpp"
 
@@ -13,8 +13,8 @@
 using namespace mpm;
 using namespace mpm::seeding;
 using namespace mpm::test;
-using geometry::Region3D;
 using Catch::Matchers::Contains;
+using geometry::Region3D;
 
 namespace
 {

@@ -95,7 +95,8 @@ void checkAgainstIntegral(const Lanes& at)
         {
             const double node = origin + h * (w.base[l] + n);
             CHECK(w.N[n][l] == Approx(meanOfHat(node, at.x[l], half)).margin(1e-13));
-            CHECK(w.G[n][l] * h == Approx((hat(at.x[l] + half - node) - hat(at.x[l] - half - node)) / (2 * half) * h).margin(1e-12));
+            CHECK(w.G[n][l] * h ==
+                  Approx((hat(at.x[l] + half - node) - hat(at.x[l] - half - node)) / (2 * half) * h).margin(1e-12));
             caught += meanOfHat(node, at.x[l], half);
         }
         CHECK(caught == Approx(1).epsilon(1e-13)); // no node of the support is missed

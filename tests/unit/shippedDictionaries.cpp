@@ -1,5 +1,5 @@
-// Every dictionary of the cases we ship is read, and has a FoamFile header that names it. (That foamDictionary reads them
-// to the same values is checked in tests/cases.)
+// Every dictionary of the cases we ship is read, and has a FoamFile header that names it. (That foamDictionary reads
+// them to the same values is checked in tests/cases.)
 #include "dictionary/dictionary.hpp"
 
 #include <algorithm>

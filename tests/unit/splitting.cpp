@@ -11,7 +11,8 @@ namespace
 /// One particle of unit spacing, stretched by F, at (0, y).
 state::State one(int dim, const std::vector<double>& F, double y = 10)
 {
-    auto s = scenes::seedBlock({.dim = dim, .corner = {-0.5, y - 0.5, -0.5}, .spacing = 1, .velocity = {3, -2, dim == 3 ? 1.0 : 0.0}});
+    auto s = scenes::seedBlock(
+        {.dim = dim, .corner = {-0.5, y - 0.5, -0.5}, .spacing = 1, .velocity = {3, -2, dim == 3 ? 1.0 : 0.0}});
     for (int k = 0; k < dim * dim; ++k)
         s.particles.F[k][0] = F[std::size_t(k)];
     s.particles.stress[0][0] = -7e3;
@@ -114,7 +115,8 @@ TEST_CASE("3D: eight-way, or along stretched edges only")
 TEST_CASE("no child's domain crosses a wall; all offsets shrink by one factor")
 {
     const std::vector<splitting::Barrier> floor = {{1, -1, 0.0}};
-    auto free = one(2, {2.5, 0, 0, 1}, 0.5), tight = one(2, {2.5, 0, 0, 1}, 0.4), pressed = one(2, {2.5, 0, 0, 1}, 0.26);
+    auto free = one(2, {2.5, 0, 0, 1}, 0.5), tight = one(2, {2.5, 0, 0, 1}, 0.4),
+         pressed = one(2, {2.5, 0, 0, 1}, 0.26);
     const auto before = sums(tight.particles);
 
     splitting::splitParticles(free, rule(splitting::Mode::fourWay), floor);

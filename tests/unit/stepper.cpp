@@ -94,7 +94,8 @@ TEST_CASE("a particle in free fall follows the sum of the scheme and does not st
     for (const auto& shape : shapes)
         for (const auto update : updates)
         {
-            auto s = scenes::seedBlock({.corner = {1.1, 7.3, 0}, .spacing = 0.25, .h = 0.5, .cells = {8, 20, 1}, .velocity = {0.3, 0, 0}});
+            auto s = scenes::seedBlock(
+                {.corner = {1.1, 7.3, 0}, .spacing = 0.25, .h = 0.5, .cells = {8, 20, 1}, .velocity = {0.3, 0, 0}});
             auto scene = sceneOf(scenes::elastic(1e6, 0.3), update);
             scene.gravity = Vector3{0, -9.8, 0};
             const double x0 = s.particles.x[0][0], y0 = s.particles.x[1][0], dt = 1e-3;
@@ -268,9 +269,11 @@ TEST_CASE("a mixed chunk gives every particle its own law")
 
 TEST_CASE("particles that leave the grid or are no longer finite end the run by name")
 {
-    auto s = scenes::seedBlock({.corner = {1, 1, 0}, .spacing = 0.25, .h = 0.5, .cells = {4, 4, 1}, .velocity = {50, 0, 0}});
+    auto s =
+        scenes::seedBlock({.corner = {1, 1, 0}, .spacing = 0.25, .h = 0.5, .cells = {4, 4, 1}, .velocity = {50, 0, 0}});
     const auto scene = sceneOf(scenes::elastic(1e6, 0.3), StressUpdate::MUSL);
-    CHECK_THROWS_WITH(run(s, scene, "uGIMP", 100, 1e-3), Catch::Contains("particle 0") && Catch::Contains("outside the grid") &&
+    CHECK_THROWS_WITH(run(s, scene, "uGIMP", 100, 1e-3), Catch::Contains("particle 0") &&
+                                                             Catch::Contains("outside the grid") &&
                                                              Catch::Contains("step ") && Catch::Contains("gridDict"));
     auto bad = scenes::seedBlock({.corner = {1, 1, 0}, .n = {2, 2, 1}, .spacing = 0.25, .h = 0.5, .cells = {8, 8, 1}});
     bad.particles.v[0][0] = std::nan("");

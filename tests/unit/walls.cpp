@@ -12,7 +12,8 @@ namespace
 /// A stiff block of 1 m x 0.5 m resting on y = 0.
 state::State block(const Vector3& velocity = {})
 {
-    return scenes::seedBlock({.corner = {1, 0, 0}, .n = {8, 4, 1}, .spacing = 0.125, .h = 0.25, .cells = {60, 12, 1}, .velocity = velocity});
+    return scenes::seedBlock(
+        {.corner = {1, 0, 0}, .n = {8, 4, 1}, .spacing = 0.125, .h = 0.25, .cells = {60, 12, 1}, .velocity = velocity});
 }
 
 stepping::Scene scene(const Vector3& g, const std::vector<nodal::Wall>& walls)
@@ -66,7 +67,8 @@ TEST_CASE("a block on an incline sticks or slides with a = g (sin - mu cos)")
         // stick
         for (Index i = 0; i < s.particles.size(); ++i)
             s.particles.stress[1][std::size_t(i)] = -1000 * g * std::cos(th) * (0.5 - s.particles.x[1][std::size_t(i)]);
-        const auto sc = scene({g * std::sin(th), -g * std::cos(th), 0}, {{"base", WallType::friction, 1, -1, 0, mu, true}});
+        const auto sc =
+            scene({g * std::sin(th), -g * std::cos(th), 0}, {{"base", WallType::friction, 1, -1, 0, mu, true}});
         run(s, sc, 0.5, 2e-3);
         const auto m = mean(s.particles);
         if (sticks) // it leans and swings about its base, but does not go anywhere: sliding would take it 0.6 m
@@ -96,8 +98,16 @@ TEST_CASE("a separating wall lets go, a holding wall does not")
 
 TEST_CASE("in a corner nothing moves into either wall; fixed walls hold all of it")
 {
-    auto s = scenes::seedBlock({.corner = {0, 0, 0}, .n = {4, 4, 1}, .spacing = 0.125, .h = 0.25, .cells = {8, 8, 1}, .velocity = {-1, -1, 0}});
-    run(s, scene({}, {{"left", WallType::friction, 0, -1, 0, 0.3, true}, {"base", WallType::friction, 1, -1, 0, 0.3, true}}), 0.02, 1e-3);
+    auto s = scenes::seedBlock({.corner = {0, 0, 0},
+                                .n = {4, 4, 1},
+                                .spacing = 0.125,
+                                .h = 0.25,
+                                .cells = {8, 8, 1},
+                                .velocity = {-1, -1, 0}});
+    run(s,
+        scene({},
+              {{"left", WallType::friction, 0, -1, 0, 0.3, true}, {"base", WallType::friction, 1, -1, 0, 0.3, true}}),
+        0.02, 1e-3);
     for (Index i = 0; i < s.particles.size(); ++i)
         for (int a = 0; a < 2; ++a)
             CHECK(s.particles.x[a][std::size_t(i)] > 0);
@@ -106,7 +116,8 @@ TEST_CASE("in a corner nothing moves into either wall; fixed walls hold all of i
     double difference = 0;
     for (Index i = 0; i < p.size(); ++i)
         for (Index j = 0; j < p.size(); ++j)
-            if (p.id[std::size_t(i)] % 4 == p.id[std::size_t(j)] / 4 && p.id[std::size_t(i)] / 4 == p.id[std::size_t(j)] % 4)
+            if (p.id[std::size_t(i)] % 4 == p.id[std::size_t(j)] / 4 &&
+                p.id[std::size_t(i)] / 4 == p.id[std::size_t(j)] % 4)
                 difference = std::max(difference, std::abs(p.x[0][std::size_t(i)] - p.x[1][std::size_t(j)]));
     CHECK(difference < 1e-12);
 
@@ -182,11 +193,14 @@ TEST_CASE("a column under pressure settles to sigma_yy = -p, with rollers at its
     s.patches = {top};
     stepping::Scene sc;
     sc.materials = {scenes::elastic(1e6, 0.3)};
-    sc.walls = {{"left", WallType::roller, 0, -1, 0, 0, false}, {"right", WallType::roller, 0, 1, 2, 0, false}, {"base", WallType::roller, 1, -1, 0, 0, false}};
+    sc.walls = {{"left", WallType::roller, 0, -1, 0, 0, false},
+                {"right", WallType::roller, 0, 1, 2, 0, false},
+                {"base", WallType::roller, 1, -1, 0, 0, false}};
     sc.loads = {{.patch = "top", .pressure = true, .magnitude = 1000}};
     auto stepper = cases::makeStepper("uGIMP", s, sc);
     double last = 0;
-    for (int i = 0; i < 6000; ++i) // kinetic damping: at every peak of the kinetic energy all velocities are set to zero
+    for (int i = 0; i < 6000;
+         ++i) // kinetic damping: at every peak of the kinetic energy all velocities are set to zero
     {
         stepper->step(1e-3);
         if (s.ledger.kineticEnergy < last)

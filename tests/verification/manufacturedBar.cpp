@@ -53,7 +53,8 @@ double barError(const std::string& shape, stepping::StressUpdate update, double 
     for (Index i = 0; i < s.particles.size(); ++i)
     {
         X.push_back(s.particles.x[0][std::size_t(i)]);
-        s.particles.v[0][std::size_t(i)] = A * M_PI * speed * std::sin(M_PI * X.back()) * std::cos(speed * M_PI * 0.5 * dt);
+        s.particles.v[0][std::size_t(i)] =
+            A * M_PI * speed * std::sin(M_PI * X.back()) * std::cos(speed * M_PI * 0.5 * dt);
     }
     stepping::Scene scene;
     scene.materials = {scenes::elastic(modulus, 0, density)};
@@ -98,8 +99,7 @@ Convergence converge(const std::string& shape, stepping::StressUpdate update, do
             error = barError(shape, update, A, N);
         }
         catch (const std::exception&) // a scheme that diverges may end by an error of its own
-        {
-        }
+        {}
         if (!out.error.empty())
             out.order.push_back(std::log2(out.error.back() / error));
         out.error.push_back(error);

@@ -86,8 +86,8 @@ TEST_CASE("self-weight column: GIMP converges to stress and position")
         for (const Index N : {10, 20, 40, 80})
         {
             const auto e = settle(shape, N);
-            fmt::print("{:>7} N {:>3}  stress error {:.3f} Pa ({:.4f} % of rho g H)  position error {:.3e} m\n", shape, N, e.stress,
-                       100 * e.stress / (rho * g * H), e.position);
+            fmt::print("{:>7} N {:>3}  stress error {:.3f} Pa ({:.4f} % of rho g H)  position error {:.3e} m\n", shape,
+                       N, e.stress, 100 * e.stress / (rho * g * H), e.position);
             CHECK((N == 10 || (e.stress < 0.7 * last.stress && e.position < 0.7 * last.position)));
             if (N == 10)
                 first = e;

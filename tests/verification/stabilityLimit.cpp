@@ -1,8 +1,8 @@
 // The largest stable Courant number c_p dt/h of the step itself: a free elastic bar, two particles per cell, positions
-// and domains frozen (the linearised step), spectral radius by power iteration on velocities and stresses. The known critical
-// numbers come from an independent 1D calculation (spectral radius of the assembled step matrix): just below them the
-// motion must stay bounded, just above it must grow.
-// delta: distance of the first particle from where it sits in an aligned cell, in cells.
+// and domains frozen (the linearised step), spectral radius by power iteration on velocities and stresses. The known
+// critical numbers come from an independent 1D calculation (spectral radius of the assembled step matrix): just below
+// them the motion must stay bounded, just above it must grow. delta: distance of the first particle from where it sits
+// in an aligned cell, in cells.
 #include "case/makeStepper.hpp"
 #include "stepping/timeStep.hpp"
 #include "support/scenes.hpp"
@@ -22,7 +22,11 @@ constexpr double modulus = 1e6, density = 1000, h = 0.5;
 double growth(const std::string& shape, StressUpdate update, double delta, double courant)
 {
     const Index N = 8;
-    auto s = scenes::seedBlock({.corner = {2 * h + delta * h, 0, 0}, .n = {2 * N, 2, 1}, .spacing = h / 2, .h = h, .density = density,
+    auto s = scenes::seedBlock({.corner = {2 * h + delta * h, 0, 0},
+                                .n = {2 * N, 2, 1},
+                                .spacing = h / 2,
+                                .h = h,
+                                .density = density,
                                 .cells = {N + 6, 1, 1}});
     stepping::Scene scene;
     scene.materials = {scenes::elastic(modulus, 0, density)};
@@ -77,9 +81,9 @@ TEST_CASE("critical Courant numbers of the step and the solver's bounds")
         double delta, massFraction, usl, musl;
     };
     // basis, shift, smallest nodal mass fraction, critical c_p dt/h for USL and for MUSL and USF (1D, spectral radius)
-    const std::vector<Row> rows = {{"linear", 0, 0.5, 0.75, 1.73},    {"linear", 0.24, 0.26, 0.67, 1.44},
+    const std::vector<Row> rows = {{"linear", 0, 0.5, 0.75, 1.73},     {"linear", 0.24, 0.26, 0.67, 1.44},
                                    {"linear", 0.26, 5e-3, 0.14, 1.43}, {"linear", 0.4, 7.5e-2, 0.52, 1.68},
-                                   {"uGIMP", 0, 0.5, 0.75, 1.73},     {"uGIMP", 0.1, 5e-3, 0.65, 1.88},
+                                   {"uGIMP", 0, 0.5, 0.75, 1.73},      {"uGIMP", 0.1, 5e-3, 0.65, 1.88},
                                    {"uGIMP", 0.3, 4.5e-2, 0.70, 1.96}, {"uGIMP", 0.49, 0.12, 0.66, 1.75}};
     for (const auto& row : rows)
         for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
@@ -88,9 +92,10 @@ TEST_CASE("critical Courant numbers of the step and the solver's bounds")
             const double bound = stepping::criticalCourant(row.shape != "linear", update, row.massFraction);
             const double below = growth(row.shape, update, row.delta, known - 0.02);
             const double above = growth(row.shape, update, row.delta, known + 0.02);
-            fmt::print("{:>7} {:<5} shift {:<5} critical {:.2f}: growth a step {:.5f} just below, {:.5f} just above; the "
-                       "solver allows {:.3f}\n",
-                       row.shape, stepping::stressUpdateName(update), row.delta, known, below, above, bound);
+            fmt::print(
+                "{:>7} {:<5} shift {:<5} critical {:.2f}: growth a step {:.5f} just below, {:.5f} just above; the "
+                "solver allows {:.3f}\n",
+                row.shape, stepping::stressUpdateName(update), row.delta, known, below, above, bound);
             CHECK(below < 1.002); // modes beat, but do not grow
             CHECK(above > 1.05);
             CHECK(bound <= known + 0.005);

@@ -6,11 +6,12 @@ int main(int argc, char** argv)
     using namespace mpm;
     cases::ApplicationInfo info{"mpmSolve", "large deformation of solids by the material point method"};
     info.usesDryRun = info.usesOverwrite = info.usesThreads = true;
-    info.details = "Reads constant/{materialProperties,boundaryConditions,g}, system/{controlDict,gridDict,mpmSchemes} and "
-                   "the state of the start time (seedParticles makes the first).\n"
-                   "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
-                   "-dry-run reads and checks everything, says what would be done and writes nothing.\n"
-                   "-overwrite with startFrom firstTime or startTime removes stored times after the start.";
+    info.details =
+        "Reads constant/{materialProperties,boundaryConditions,g}, system/{controlDict,gridDict,mpmSchemes} and "
+        "the state of the start time (seedParticles makes the first).\n"
+        "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
+        "-dry-run reads and checks everything, says what would be done and writes nothing.\n"
+        "-overwrite with startFrom firstTime or startTime removes stored times after the start.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory folder(options.caseFolder);
         cases::SolverRun run(folder, options);

@@ -25,8 +25,9 @@ void refuseOldState(const cases::CaseDirectory& here, bool overwrite)
         throw InputError({here.timePath("0").string()}, "is no folder; the state would go into it");
     const auto times = here.times();
     if (!times.empty() && times.back().value > 0)
-        fmt::print("note: times of an earlier run stay, up to {}; startFrom of controlDict says where mpmSolve begins\n",
-                   times.back().name);
+        fmt::print(
+            "note: times of an earlier run stay, up to {}; startFrom of controlDict says where mpmSolve begins\n",
+            times.back().name);
 }
 } // namespace
 
@@ -35,7 +36,8 @@ int main(int argc, char** argv)
     cases::ApplicationInfo info{"seedParticles", "particles with initial stress from the geometry of a case"};
     info.usesDryRun = info.usesOverwrite = true;
     info.details =
-        "Reads system/{seedParticlesDict,gridDict}, constant/{materialProperties,g} and the geometry (.geo, .step, .stl,\n"
+        "Reads system/{seedParticlesDict,gridDict}, constant/{materialProperties,g} and the geometry (.geo, .step, "
+        ".stl,\n"
         ".msh). Writes 0/state.h5 and <case>.xdmf for ParaView. -dry-run says what would be seeded and writes nothing.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);

@@ -46,17 +46,32 @@ void store(const std::filesystem::path& file, const state::State& state, const s
          {{"stress", "Pa", names, stress.nodal}, {"mass", dim == 2 ? "kg/m" : "kg", {"mass"}, {stress.nodeMass}}}});
 }
 
-const std::vector<std::string> columns{
-    "time",       "particles",     "minNodal",         "minRaw",         "minSmoothed",         "errorNodal",
-    "errorRaw",   "errorSmoothed", "correlationNodal", "correlationRaw", "correlationSmoothed", "noise",
-    "noiseByMass", "noiseFloor", "worstX",        "worstY",           "worstZ",         "worstError"};
+const std::vector<std::string> columns{"time",
+                                       "particles",
+                                       "minNodal",
+                                       "minRaw",
+                                       "minSmoothed",
+                                       "errorNodal",
+                                       "errorRaw",
+                                       "errorSmoothed",
+                                       "correlationNodal",
+                                       "correlationRaw",
+                                       "correlationSmoothed",
+                                       "noise",
+                                       "noiseByMass",
+                                       "noiseFloor",
+                                       "worstX",
+                                       "worstY",
+                                       "worstZ",
+                                       "worstError"};
 
 std::vector<std::string> tableRow(const std::string& name, Index particles, const smoothing::StressQuality& q)
 {
     std::vector<std::string> row{name, std::to_string(particles)};
     for (double value : {q.nodal.min, q.raw.min, q.smoothed.min, q.nodal.error, q.raw.error, q.smoothed.error})
         row.push_back(fmt::format("{:.1f}", 1e-3 * value));
-    for (double value : {q.nodal.correlation, q.raw.correlation, q.smoothed.correlation, q.noise, q.noiseByMass, q.noiseFloor})
+    for (double value :
+         {q.nodal.correlation, q.raw.correlation, q.smoothed.correlation, q.noise, q.noiseByMass, q.noiseFloor})
         row.push_back(fmt::format("{:.3f}", value));
     return row;
 }
@@ -97,7 +112,8 @@ int main(int argc, char** argv)
             store(here.statePath(time.name), state, stress, overburden, axis);
             csv.write({state.time, double(state.particles.size()), q.nodal.min, q.raw.min, q.smoothed.min,
                        q.nodal.error, q.raw.error, q.smoothed.error, q.nodal.correlation, q.raw.correlation,
-                       q.smoothed.correlation, q.noise, q.noiseByMass, q.noiseFloor, at[0], at[1], at[2], q.worstError});
+                       q.smoothed.correlation, q.noise, q.noiseByMass, q.noiseFloor, at[0], at[1], at[2],
+                       q.worstError});
             table.row(tableRow(time.name, state.particles.size(), q));
         }
         std::vector<std::string> all;

@@ -13,13 +13,15 @@ int main(int argc, char** argv)
 {
     using namespace mpm;
     cases::ApplicationInfo info{"splitParticles", "splits stretched particles of a stored state"};
-    info.options = {{"target", "DIR", "write the refined state into a new case folder, which copies constant, system and "
-                                      "geometry; a relative path starts at the case folder"}};
+    info.options = {{"target", "DIR",
+                     "write the refined state into a new case folder, which copies constant, system and "
+                     "geometry; a relative path starts at the case folder"}};
     info.usesTime = info.usesDryRun = info.usesOverwrite = true;
-    info.details = "Reads system/splitParticlesDict: threshold (longest edge in seeding spacings), mode (fourWay | stretched), "
-                   "maxParticles, maxGeneration, passes (how often children are looked at again, default 8).\n"
-                   "Without -target the state itself is replaced and its derived fields are dropped, which needs -overwrite. "
-                   "Works on one time: -time T, or the latest.";
+    info.details =
+        "Reads system/splitParticlesDict: threshold (longest edge in seeding spacings), mode (fourWay | stretched), "
+        "maxParticles, maxGeneration, passes (how often children are looked at again, default 8).\n"
+        "Without -target the state itself is replaced and its derived fields are dropped, which needs -overwrite. "
+        "Works on one time: -time T, or the latest.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory folder(options.caseFolder);
         const auto times = folder.selectTimes(options.time, options.latestTime || !options.time);
@@ -28,8 +30,8 @@ int main(int argc, char** argv)
         auto state = output::readState(folder.statePath(times[0].name));
         const auto dict = dictionary::Dictionary::readFile(folder.dictionaryPath("system/splitParticlesDict"));
         const auto rule = cases::readSplitRule(dict);
-        const Index passes = dict.get<Index>({"passes", "how often children are looked at again", {},
-                                              dictionary::Bound::between(1, 100), Index(8)});
+        const Index passes = dict.get<Index>(
+            {"passes", "how often children are looked at again", {}, dictionary::Bound::between(1, 100), Index(8)});
         dict.rejectUnread();
         const auto scene = cases::readScene(folder, state).scene;
 
@@ -50,8 +52,9 @@ int main(int argc, char** argv)
             return 0;
         }
         if (!options.overwrite)
-            throw InputError("splitParticles: found neither -target nor -overwrite; allowed: -target DIR for a new case "
-                             "folder, or -overwrite to replace the state");
+            throw InputError(
+                "splitParticles: found neither -target nor -overwrite; allowed: -target DIR for a new case "
+                "folder, or -overwrite to replace the state");
         output::writeState(folder.timePath(times[0].name), state);
         return 0;
     });
