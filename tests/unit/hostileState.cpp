@@ -236,5 +236,6 @@ TEST_CASE("changed extents are noticed before anything is allocated")
         bytes.replace(at, 8, huge);
     REQUIRE(found > 12);
     writeContents(file, bytes);
-    CHECK_THAT(refusal(file), Catch::Contains("/particles/position: cannot be read (damaged"));
+    // which object is met first is open: bytes that look alike may stand in an earlier checksum
+    CHECK_THAT(refusal(file), Catch::Contains("cannot be read (damaged"));
 }

@@ -28,7 +28,7 @@ namespace
 template <class T>
 bool sameBits(const state::Column<T>& a, const state::Column<T>& b)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 void requireSameBits(state::State a, state::State b)
