@@ -8,7 +8,7 @@
 ///
 /// Where a hat reaches a node without mass (linear shape near a surface), the element's weights are renormalised over
 /// the nodes that carry mass, so no load is lost; an element with no such node is a StepError. Verified in
-/// tests/unit/traction.cpp.
+/// tests/unit/walls.cpp.
 #include "nodal/boundaries.hpp"
 #include "state/gridBox.hpp"
 #include "state/nodeGrid.hpp"

@@ -8,7 +8,7 @@
 ///     USL            min(0.67, 1.8 sqrt(m_i/m))    0.65
 ///     USF, MUSL      1.4                           1.4
 /// m_i/m is the smallest nodal mass over that of a full node: USL with hat functions loses stability as a node empties.
-/// tests/unit/timeStep.cpp checks them by power iteration on the step itself.
+/// tests/verification/stabilityLimit.cpp checks them by power iteration on the step itself.
 #include "stepping/stepper.hpp"
 
 #include <string>
