@@ -1,11 +1,15 @@
 #pragma once
-/// std::vector on 64-byte boundaries (one cache line, one AVX-512 register).
+/// std::vector on 64-byte boundaries (one cache line, one AVX-512 register). Large arrays do not all start at the same
+/// place of a memory page: columns that are read side by side would otherwise compete for the same sets of the cache.
 #include <cstddef>
-#include <new>
 #include <vector>
 
 namespace mpm
 {
+/// Memory on a 64-byte boundary; throws std::bad_alloc.
+void* allocateAligned(std::size_t bytes);
+void freeAligned(void* memory) noexcept;
+
 template <class T>
 struct AlignedAllocator
 {
@@ -14,8 +18,8 @@ struct AlignedAllocator
     template <class U>
     AlignedAllocator(const AlignedAllocator<U>&)
     {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
-    void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+    T* allocate(std::size_t n) { return static_cast<T*>(allocateAligned(n * sizeof(T))); }
+    void deallocate(T* p, std::size_t) { freeAligned(p); }
     template <class U>
     bool operator==(const AlignedAllocator<U>&) const
     {

@@ -263,7 +263,7 @@ splitting::Rule readSplitting(const Dictionary& d)
     return rule;
 }
 
-std::string readSchemes(const Dictionary& d, const state::State& state, stepping::Scene& scene)
+std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
 {
     const auto shape = d.choose("shape", "shape functions", shapeCatalogue(), "uGIMP");
     const auto update = d.choose(
@@ -277,13 +277,8 @@ std::string readSchemes(const Dictionary& d, const state::State& state, stepping
         d.get<double>({"picRate", "share of PIC velocity mixed in per second", unit::rate, Bound::nonNegative(), 0.0});
     scene.sortInterval =
         d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
-    scene.defaultSlabs =
-        d.get<Index>({"slabs", "parts particles are cut into for threads", {}, Bound::between(1, 1024), Index(8)});
     if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
         scene.splitting = readSplitting(*splitting);
-    if (state.slabs > 0 && state.slabs != scene.defaultSlabs && d.found("slabs"))
-        d.fail("slabs", fmt::format("{}", scene.defaultSlabs),
-               fmt::format("{}, which the stored state was computed with", state.slabs));
     return shape;
 }
 
@@ -349,7 +344,7 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
         out.scene.gravity = readGravity(open("constant/g"), state.particles.dim);
     if (folder.hasFile("constant/boundaryConditions"))
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
-    out.shape = readSchemes(open("system/mpmSchemes"), state, out.scene);
+    out.shape = readSchemes(open("system/mpmSchemes"), out.scene);
     for (const auto& [name, dictionary] : read)
     {
         dictionary.rejectUnread();

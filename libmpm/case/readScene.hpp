@@ -14,7 +14,6 @@
 ///     transfer      FLIP;
 ///     picRate       0;          // [1/s] share of PIC velocity mixed in per second
 ///     sortInterval  20;         // steps between sorts of the particles
-///     slabs         8;          // parts particles are cut into for threads; results depend on it, not on the threads
 ///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
 #include "case/caseDirectory.hpp"
 #include "dictionary/dictionary.hpp"

@@ -1,12 +1,12 @@
 #include "case/solverRun.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
 #include "output/stateFile.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <omp.h>
@@ -15,11 +15,6 @@ namespace mpm::cases
 {
 namespace
 {
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
 {
     const auto place =
@@ -145,7 +140,7 @@ void SolverRun::banner() const
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
     line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
                                   limit_.courant, limit_.waveSpeed * stepSize() / state_.grid.h));
-    line("threads", fmt::format("{}, {} slabs", options_.threadCount(), state_.slabs));
+    line("threads", fmt::format("{}", options_.threadCount()));
 }
 
 void SolverRun::openOutput()
@@ -286,14 +281,14 @@ void SolverRun::summary()
     fmt::print("\nDone: {} steps to {:g} s in {} ({} of it output)\n", steps, state_.time,
                formatDuration(seconds_ + outputSeconds_), formatDuration(outputSeconds_));
     line("speed", fmt::format("{:.1f} ns per particle and step", 1e9 * seconds_ / std::max(1.0, particleSteps_)));
-    const auto& p = stepper_->times();
-    const double all = p.toGrid + p.nodal + p.toParticles + p.constitutive + p.sort + p.split;
+    const auto p = stepper_->times();
+    const double all = p.weights + p.toGrid + p.nodal + p.toParticles + p.law + p.sort + p.split;
     if (all > 0)
         line("spent on",
-             fmt::format("to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, strain and law {:.0f} %, sort "
+             fmt::format("weights {:.0f} %, to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, law {:.0f} %, sort "
                          "{:.0f} %, split {:.0f} %",
-                         100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
-                         100 * p.constitutive / all, 100 * p.sort / all, 100 * p.split / all));
+                         100 * p.weights / all, 100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
+                         100 * p.law / all, 100 * p.sort / all, 100 * p.split / all));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
     std::string extent;
     for (int a = 0; a < state_.particles.dim; ++a)

@@ -1,35 +1,60 @@
 #include "constitutive/kinematics.hpp"
 
+#include "base/record.hpp"
+
 #include <cmath>
 
 namespace mpm::constitutive
 {
 namespace
 {
-/// e^s - 1 by its series; 1e-16 for |s| <= 1/2.
-inline double expMinusOne(double s)
+/// Largest |dt L| for which the short series below are exact to round-off.
+constexpr double small = 1e-3;
+
+bool allSmall(const double* L, int count, double dt)
 {
-    double sum = 1;
-    for (int k = 13; k >= 2; --k)
+    Record most{};
+    for (int i = 0; i < count; i += 8)
+    {
+        const Record x = load(L + i);
+        most = largerOf(x < Record{} ? -x : x, most);
+    }
+    double largest = 0;
+    for (int l = 0; l < 8; ++l)
+        largest = most[l] > largest ? most[l] : largest;
+    return dt * largest <= small;
+}
+
+/// e^s - 1 by its series to s^terms; with 13 terms 1e-16 for |s| <= 1/2, with 5 for |s| <= 3e-3.
+template <int terms, class R>
+[[gnu::always_inline]] inline R expMinusOne(const R& s)
+{
+    R sum = s * 0 + 1;
+    MPM_UNROLL
+    for (int k = terms; k >= 2; --k)
         sum = 1 + s * sum * (1.0 / k);
     return s * sum;
 }
 
-inline void multiply3(const double (&a)[9], const double (&b)[9], double (&out)[9])
+template <class R>
+[[gnu::always_inline]] inline void multiply3(const R (&a)[9], const R (&b)[9], R (&out)[9])
 {
+    MPM_UNROLL
     for (int i = 0; i < 3; ++i)
+        MPM_UNROLL
         for (int j = 0; j < 3; ++j)
             out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
 }
 
-inline double determinant3(const double (&m)[9])
+template <class R>
+[[gnu::always_inline]] inline R determinant3(const R (&m)[9])
 {
     return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
-} // namespace
 
 // exp(A) = e^s (cosh(q) I + sinh(q)/q A'), s = tr A/2, A' = A - s I, q^2 = -det A'; both functions are entire in q^2.
-void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
+template <int expTerms, int terms>
+void advance2(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
 {
     for (int l = 0; l < lanes; ++l)
     {
@@ -37,12 +62,12 @@ void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
         const double s = 0.5 * (xx + yy), d = 0.5 * (xx - yy);
         const double z = d * d + xy * yx;
         double c = 1, sh = 1;
-        for (int k = 7; k >= 1; --k)
+        for (int k = terms; k >= 1; --k)
         {
             c = 1 + z * c * (1.0 / ((2 * k - 1) * (2 * k)));
             sh = 1 + z * sh * (1.0 / ((2 * k) * (2 * k + 1)));
         }
-        const double e = 1 + expMinusOne(s);
+        const double e = 1 + expMinusOne<expTerms>(s);
         const double a = e * (c + sh * d), b = e * sh * xy, g = e * sh * yx, h = e * (c - sh * d);
         const double f0 = F[0][l], f1 = F[1][l], f2 = F[2][l], f3 = F[3][l];
         F[0][l] = a * f0 + b * f2;
@@ -52,35 +77,95 @@ void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
     }
 }
 
-// Taylor series to degree 6 of exp(A/2), squared; a last scalar factor makes det exp(A) = exp(tr A) to round-off.
-void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
+/// exp(A) by Taylor's series: to degree 4 for small A, I + A + A^2 (I/2 + A/6 + A^2/24); else to degree 6 of A/2,
+/// squared.
+template <bool isSmall>
+[[gnu::always_inline]] inline void exponential3(const Record (&A)[9], Record (&out)[9])
 {
-    for (int l = 0; l < lanes; ++l)
+    Record a[9], power[9], sum[9];
+    MPM_UNROLL
+    for (int k = 0; k < 9; ++k)
+        a[k] = isSmall ? A[k] : 0.5 * A[k];
+    multiply3(a, a, power);
+    if constexpr (isSmall)
     {
-        double a[9], sum[9], product[9], f[9];
+        MPM_UNROLL
         for (int k = 0; k < 9; ++k)
-        {
-            a[k] = 0.5 * dt * L[k][l];
-            sum[k] = a[k] * (1.0 / 6);
-            f[k] = F[k][l];
-        }
+            sum[k] = power[k] * (1.0 / 24) + a[k] * (1.0 / 6);
+        MPM_UNROLL
+        for (int k = 0; k < 9; k += 4)
+            sum[k] += 0.5;
+        multiply3(power, sum, out);
+        MPM_UNROLL
+        for (int k = 0; k < 9; ++k)
+            out[k] += a[k];
+        MPM_UNROLL
+        for (int k = 0; k < 9; k += 4)
+            out[k] += 1;
+    }
+    else
+    {
+        // 1 + a + a^2 (1/2 + a/6 + a^2 (1/24 + a/120 + a^2/720))
+        Record inner[9];
+        MPM_UNROLL
+        for (int k = 0; k < 9; ++k)
+            sum[k] = power[k] * (1.0 / 720) + a[k] * (1.0 / 120);
+        MPM_UNROLL
+        for (int k = 0; k < 9; k += 4)
+            sum[k] += 1.0 / 24;
+        multiply3(power, sum, inner);
+        MPM_UNROLL
+        for (int k = 0; k < 9; ++k)
+            inner[k] += a[k] * (1.0 / 6);
+        MPM_UNROLL
+        for (int k = 0; k < 9; k += 4)
+            inner[k] += 0.5;
+        multiply3(power, inner, sum);
+        MPM_UNROLL
+        for (int k = 0; k < 9; ++k)
+            sum[k] += a[k];
+        MPM_UNROLL
         for (int k = 0; k < 9; k += 4)
             sum[k] += 1;
-        for (int degree = 5; degree >= 1; --degree)
-        {
-            multiply3(a, sum, product);
-            for (int k = 0; k < 9; ++k)
-                sum[k] = product[k] * (1.0 / degree);
-            for (int k = 0; k < 9; k += 4)
-                sum[k] += 1;
-        }
-        multiply3(sum, sum, product);
-        const double volume = 1 + expMinusOne(2 * (a[0] + a[4] + a[8]));
-        const double factor = 1 + (volume / determinant3(product) - 1) * (1.0 / 3);
-        multiply3(product, f, sum);
-        for (int k = 0; k < 9; ++k)
-            F[k][l] = factor * sum[k];
+        multiply3(sum, sum, out);
     }
+}
+
+/// A last scalar factor makes det exp(A) = exp(tr A) to round-off.
+template <bool isSmall>
+void advance3(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
+{
+    for (int g = 0; g < lanes; g += 8)
+    {
+        Record a[9], e[9], f[9], out[9];
+        for (int k = 0; k < 9; ++k)
+            a[k] = dt * load(L[k] + g);
+        exponential3<isSmall>(a, e);
+        const Record volume = 1 + expMinusOne<isSmall ? 5 : 13>(a[0] + a[4] + a[8]);
+        const Record factor = 1 + (volume / determinant3(e) - 1) * (1.0 / 3);
+        for (int k = 0; k < 9; ++k)
+            f[k] = load(F[k] + g);
+        multiply3(e, f, out);
+        for (int k = 0; k < 9; ++k)
+            store(F[k] + g, factor * out[k]);
+    }
+}
+} // namespace
+
+void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
+{
+    if (allSmall(L[0], 4 * lanes, dt))
+        advance2<5, 3>(L, dt, F);
+    else
+        advance2<13, 7>(L, dt, F);
+}
+
+void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
+{
+    if (allSmall(L[0], 9 * lanes, dt))
+        advance3<true>(L, dt, F);
+    else
+        advance3<false>(L, dt, F);
 }
 
 void rotateStress(const TensorLanes<2>& L, double dt, StressLanes<2>& stress)
@@ -179,34 +264,44 @@ void stretchDiagonal(const TensorLanes<2>& F, double (&U)[2][lanes])
     }
 }
 
-// R by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (Higham 1986); nine steps converge to
-// round-off for stretch ratios up to 1e6. Then U = R^T F.
+// R by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (Higham 1986), to round-off in at most nine
+// steps for stretch ratios up to 1e6. Then U = R^T F.
 void stretchDiagonal(const TensorLanes<3>& F, double (&U)[3][lanes])
 {
-    for (int l = 0; l < lanes; ++l)
+    for (int group = 0; group < lanes; group += 8)
     {
-        double r[9], f[9];
+        Record r[9], f[9];
         for (int k = 0; k < 9; ++k)
-            r[k] = f[k] = F[k][l];
+            r[k] = f[k] = load(F[k] + group);
         for (int step = 0; step < 9; ++step)
         {
-            const double cof[9] = {r[4] * r[8] - r[5] * r[7], r[5] * r[6] - r[3] * r[8], r[3] * r[7] - r[4] * r[6],
-                                   r[2] * r[7] - r[1] * r[8], r[0] * r[8] - r[2] * r[6], r[1] * r[6] - r[0] * r[7],
-                                   r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3]};
-            const double over = 1 / (r[0] * cof[0] + r[1] * cof[1] + r[2] * cof[2]);
-            double rr = 0, ii = 0;
+            const Record cof[9] = {
+                r[4] * r[8] - r[5] * r[7], r[5] * r[6] - r[3] * r[8], r[3] * r[7] - r[4] * r[6],
+                r[2] * r[7] - r[1] * r[8], r[0] * r[8] - r[2] * r[6], r[1] * r[6] - r[0] * r[7],
+                r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3]};
+            const Record over = 1 / (r[0] * cof[0] + r[1] * cof[1] + r[2] * cof[2]);
+            Record rr{}, ii{};
             for (int k = 0; k < 9; ++k)
             {
                 rr += r[k] * r[k];
                 ii += cof[k] * cof[k] * over * over;
             }
-            const double g = std::sqrt(std::sqrt(ii / rr));
-            const double plain = 0.5 * g, inverse = 0.5 * over / g;
+            Record g = ii / rr;
+            for (int l = 0; l < 8; ++l)
+                g[l] = std::sqrt(std::sqrt(g[l]));
+            const Record plain = 0.5 * g, inverse = 0.5 * over / g;
+            Record change{};
             for (int k = 0; k < 9; ++k)
-                r[k] = plain * r[k] + inverse * cof[k];
+            {
+                const Record next = plain * r[k] + inverse * cof[k], d = next - r[k];
+                change += d * d;
+                r[k] = next;
+            }
+            if (sumOf(change) < 1e-17) // the next step would change R by the square of this one
+                break;
         }
         for (int k = 0; k < 3; ++k)
-            U[k][l] = r[k] * f[k] + r[3 + k] * f[3 + k] + r[6 + k] * f[6 + k];
+            store(U[k] + group, r[k] * f[k] + r[3 + k] * f[3 + k] + r[6 + k] * f[6 + k]);
     }
 }
 } // namespace mpm::constitutive

@@ -18,26 +18,27 @@ class Gravity : public NodeEffect<dim>
 
     void apply(NodeRow<dim>& row) const override
     {
+        Record change{};
+        for (int a = 0; a < dim; ++a)
+            change[row.trial + a] = row.dt * g_[a];
         for (Index i = row.begin; i < row.end; ++i)
-            if (row.carries(i))
-                for (int a = 0; a < dim; ++a)
-                    row.node[i][row.trial + a] += row.dt * g_[a];
+            row.node[i] += row.carries(i) ? change : Record{};
     }
 
     void book(NodeRow<dim>& row) const override
     {
         double mass = 0;
-        Vector3 momentum{};
+        Record momentum{};
         for (Index i = row.begin; i < row.end; ++i)
-            if (row.carries(i))
-            {
-                mass += row.node[i][0];
-                for (int a = 0; a < dim; ++a)
-                    momentum[a] += row.node[i][0] * (row.node[i][row.velocity + a] + row.node[i][row.trial + a]);
-            }
+        {
+            const double m = row.carries(i) ? row.node[i][0] : 0;
+            mass += m;
+            momentum += m * row.node[i];
+        }
         for (int a = 0; a < dim; ++a)
         {
-            row.sums->gravityWork += 0.5 * row.dt * g_[a] * momentum[a];
+            const double both = momentum[row.velocity + a] + momentum[row.trial + a];
+            row.sums->gravityWork += 0.5 * row.dt * g_[a] * both;
             row.sums->gravityImpulse[a] += row.dt * g_[a] * mass;
         }
     }

@@ -92,52 +92,77 @@ class NodeEffect
     virtual void book(NodeRow<dim>&) const {}
 };
 
+/// The lanes of a record by what they hold, moved and chosen as a whole.
+template <int dim>
+struct NodeLanes
+{
+    /// -1 in the lanes of the velocity, of the trial velocity, 0 elsewhere.
+    static constexpr Mask velocity = dim == 2 ? Mask{0, -1, -1, 0, 0, 0, 0, 0} : Mask{0, -1, -1, -1, 0, 0, 0, 0};
+    static constexpr Mask trial = dim == 2 ? Mask{0, 0, 0, -1, -1, 0, 0, 0} : Mask{0, 0, 0, 0, -1, -1, -1, 0};
+
+    static Record toTrial(const Record& r)
+    {
+        if constexpr (dim == 2)
+            return __builtin_shufflevector(r, r, 0, 0, 0, 1, 2, 0, 0, 0);
+        else
+            return __builtin_shufflevector(r, r, 0, 0, 0, 0, 1, 2, 3, 0);
+    }
+    static Record toVelocity(const Record& r)
+    {
+        if constexpr (dim == 2)
+            return __builtin_shufflevector(r, r, 0, 3, 4, 0, 0, 0, 0, 0);
+        else
+            return __builtin_shufflevector(r, r, 0, 4, 5, 6, 0, 0, 0, 0);
+    }
+};
+
 /// f -> u for a row; p -> v_i.
 template <int dim>
 void beginRow(NodeRow<dim>& row)
 {
+    using Lanes = NodeLanes<dim>;
+    row.projected->assign(row.node + row.begin, row.node + row.end);
     for (Index i = row.begin; i < row.end; ++i)
     {
         Record& r = row.node[i];
-        const double inverse = row.carries(i) ? 1 / r[0] : 0;
-        for (int a = 0; a < dim; ++a)
-        {
-            r[1 + a] *= inverse;
-            r[1 + dim + a] = r[1 + a] + row.dt * inverse * r[1 + dim + a];
-        }
+        const Record rates = r * (row.carries(i) ? 1 / r[0] : 0.0); // (1, v, f/m)
+        r = Lanes::velocity ? rates : Lanes::trial ? Lanes::toTrial(rates) + row.dt * rates : r;
     }
 }
 
-/// Books kinetic energies and wall work, then (v_i, u) -> (v*, a).
+/// Books kinetic energies, wall work and the work of the projected forces, then (v_i, u) -> (v*, a).
 template <int dim>
 void endRow(NodeRow<dim>& row, double inverseDt)
 {
-    const bool walls = !row.walls->pushed.empty();
-    double before = 0, after = 0;
+    using Lanes = NodeLanes<dim>;
+    Record kinetic{}, work{};
     for (Index i = row.begin; i < row.end; ++i)
     {
         Record& r = row.node[i];
-        double vv = 0, uu = 0;
-        for (int a = 0; a < dim; ++a)
-        {
-            const double v = r[1 + a], u = r[1 + dim + a];
-            vv += v * v;
-            uu += u * u;
-            if (walls)
+        kinetic += r[0] * (r * r);
+        work += (*row.projected)[std::size_t(i - row.begin)] * r;
+    }
+    for (int a = 0; a < dim; ++a)
+    {
+        row.sums->kineticBefore += 0.5 * kinetic[row.velocity + a];
+        row.sums->kineticAfter += 0.5 * kinetic[row.trial + a];
+        row.sums->forceWork += row.dt * work[row.trial + a];
+    }
+    if (!row.walls->pushed.empty())
+        for (Index i = row.begin; i < row.end; ++i)
+            for (int a = 0; a < dim; ++a)
             {
                 const Vector3& jn = row.walls->other[std::size_t(i - row.begin)];
                 const Vector3& jt = row.walls->friction[std::size_t(i - row.begin)];
-                row.sums->wallLoss -= jn[a] * 0.5 * (v + u);
-                row.sums->frictionLoss -= jt[a] * 0.5 * (v + u);
+                const double mean = 0.5 * (row.node[i][row.velocity + a] + row.node[i][row.trial + a]);
+                row.sums->wallLoss -= jn[a] * mean;
+                row.sums->frictionLoss -= jt[a] * mean;
                 row.sums->wallImpulse[a] += jn[a] + jt[a];
             }
-            r[1 + a] = u;
-            r[1 + dim + a] = (u - v) * inverseDt;
-        }
-        before += r[0] * vv;
-        after += r[0] * uu;
+    for (Index i = row.begin; i < row.end; ++i)
+    {
+        Record& r = row.node[i];
+        r = Lanes::velocity ? Lanes::toVelocity(r) : Lanes::trial ? inverseDt * (r - Lanes::toTrial(r)) : r;
     }
-    row.sums->kineticBefore += 0.5 * before;
-    row.sums->kineticAfter += 0.5 * after;
 }
 } // namespace mpm::nodal

@@ -14,11 +14,11 @@ template <int dim>
 struct PointWeights
 {
     static constexpr int count = 1 << dim;
-    Index node[count];
+    const Record* node[count]; ///< null where no mass is
     double N[count];
     double G[count][dim];
 
-    PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::NodeWindow& window,
+    PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::TileGrid& nodes,
                  double smallestMass)
     {
         Index base[3] = {0, 0, 0};
@@ -44,13 +44,10 @@ struct PointWeights
                     if (b != a)
                         G[c][a] *= (c >> b & 1) ? t[b] : 1 - t[b];
             }
-            bool inside = true;
-            for (int a = 0; a < dim; ++a)
-                inside = inside && index[a] >= window.lo[a] && index[a] < window.lo[a] + window.n[a];
-            node[c] = inside ? window.offset(index[0], index[1], index[2]) : -1;
-            if (node[c] < 0 || !(window.nodes[std::size_t(node[c])][0] > smallestMass))
+            node[c] = nodes.find(index[0], index[1], index[2]);
+            if (!node[c] || !((*node[c])[0] > smallestMass))
             {
-                node[c] = -1;
+                node[c] = nullptr;
                 continue;
             }
             total += N[c];
@@ -83,7 +80,7 @@ Vector3 areaVector(const state::SurfacePatch& p, Index e)
 } // namespace
 
 template <int dim>
-void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::NodeWindow& window,
+void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::TileGrid& nodes,
                             double smallestMass)
 {
     added_.clear();
@@ -91,16 +88,16 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
     {
         const Vector3 area = areaVector<dim>(patch, e);
         const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-        const PointWeights<dim> w(patch, e, grid, window, smallestMass);
+        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass);
         for (int c = 0; c < w.count; ++c)
         {
-            if (w.node[c] < 0)
+            if (!w.node[c])
                 continue;
-            Added add{w.node[c], {}};
+            Added add{const_cast<Record*>(w.node[c]), {}};
             for (int a = 0; a < dim; ++a)
             {
                 add.force[a] = w.N[c] * (load_.pressure ? -load_.magnitude * area[a] : load_.traction[a] * size);
-                window.nodes[std::size_t(add.node)][1 + dim + a] += add.force[a];
+                (*add.node)[1 + dim + a] += add.force[a];
             }
             added_.push_back(add);
         }
@@ -108,12 +105,12 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
 }
 
 template <int dim>
-double Traction<dim>::book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const
+double Traction<dim>::book(double dt, double& work, Vector3& impulse) const
 {
     double end = 0;
     for (const auto& add : added_)
     {
-        const Record& r = window.nodes[std::size_t(add.node)];
+        const Record& r = *add.node;
         for (int a = 0; a < dim; ++a)
         {
             end += dt * add.force[a] * r[1 + a];
@@ -125,18 +122,18 @@ double Traction<dim>::book(const state::NodeWindow& window, double dt, double& w
 }
 
 template <int dim>
-void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::NodeWindow& window,
+void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::TileGrid& nodes,
                double smallestMass, double dt)
 {
     for (Index e = 0; e < patch.size(); ++e)
     {
-        const PointWeights<dim> w(patch, e, grid, window, smallestMass);
+        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass);
         double v[dim] = {}, L[dim][dim] = {};
         for (int c = 0; c < w.count; ++c)
-            if (w.node[c] >= 0)
+            if (w.node[c])
                 for (int a = 0; a < dim; ++a)
                 {
-                    const double va = window.nodes[std::size_t(w.node[c])][1 + a];
+                    const double va = (*w.node[c])[1 + a];
                     v[a] += w.N[c] * va;
                     for (int b = 0; b < dim; ++b)
                         L[a][b] += va * w.G[c][b];
@@ -157,6 +154,6 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 
 template class Traction<2>;
 template class Traction<3>;
-template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
-template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double, double);
+template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double, double);
+template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double, double);
 } // namespace mpm::nodal

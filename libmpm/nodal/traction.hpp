@@ -11,8 +11,8 @@
 /// tests/unit/walls.cpp.
 #include "nodal/boundaries.hpp"
 #include "state/gridBox.hpp"
-#include "state/nodeGrid.hpp"
 #include "state/state.hpp"
+#include "state/tileGrid.hpp"
 
 namespace mpm::nodal
 {
@@ -22,33 +22,33 @@ class Traction
   public:
     explicit Traction(const Load& load) : load_(load) {}
 
-    /// Adds the load to the force lanes of the window (mass lanes summed, smallestMass as in NodeRow).
-    void scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::NodeWindow& window,
+    /// Adds the load to the force lanes of the nodes (mass lanes summed, smallestMass as in NodeRow).
+    void scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::TileGrid& nodes,
                  double smallestMass);
     /// After the nodal equations (lanes v*, a): adds the work sum dt f . (v_i + v*)/2 [J] and the impulse [N s] of the
     /// load; returns sum dt f . v*.
-    double book(const state::NodeWindow& window, double dt, double& work, Vector3& impulse) const;
+    double book(double dt, double& work, Vector3& impulse) const;
     const Load& load() const { return load_; }
 
   private:
     struct Added
     {
-        Index node;
+        Record* node;
         Vector3 force;
     };
     Load load_;
     std::vector<Added> added_;
 };
 
-/// Moves a patch by the velocities v* in the window's lanes 1..dim.
+/// Moves a patch by the velocities v* in the nodes' lanes 1..dim.
 template <int dim>
-void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::NodeWindow& window,
+void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::TileGrid& nodes,
                double smallestMass, double dt);
 
 extern template class Traction<2>;
 extern template class Traction<3>;
-extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double,
+extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double,
                                   double);
-extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::NodeWindow&, double,
+extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double,
                                   double);
 } // namespace mpm::nodal

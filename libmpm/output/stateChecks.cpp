@@ -38,7 +38,6 @@ class Checker
         finite("time", state_.time);
         finite("deltaT", state_.deltaT);
         count("step", state_.step);
-        count("slabs", state_.slabs);
         count("nextId", state_.nextId);
         for (double length : state_.seedSpacing)
             finite("seedSpacing", length);

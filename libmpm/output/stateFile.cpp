@@ -68,7 +68,6 @@ void writeRoot(Hdf5File& file, const state::State& state)
     file.setAttribute("/", "time", state.time);
     file.setAttribute("/", "step", state.step);
     file.setAttribute("/", "deltaT", state.deltaT);
-    file.setAttribute("/", "slabs", state.slabs);
     file.setAttribute("/", "seedSpacing", state.seedSpacing);
     file.setAttribute("/", "nextId", state.nextId);
     file.setAttribute("/", "materials", state.materials);
@@ -83,7 +82,6 @@ void readRoot(const Hdf5File& file, state::State& state)
     state.time = file.realAttribute("/", "time");
     state.step = file.integerAttribute("/", "step");
     state.deltaT = file.realAttribute("/", "deltaT");
-    state.slabs = file.integerAttribute("/", "slabs");
     state.seedSpacing = file.vectorAttribute("/", "seedSpacing");
     state.nextId = file.integerAttribute("/", "nextId");
     state.materials = file.textsAttribute("/", "materials");

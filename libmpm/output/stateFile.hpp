@@ -5,7 +5,7 @@
 /// stress components xx yy zz xy (yz zx); every dataset carries its unit in the attribute "unit", "1" for numbers):
 ///
 ///     /                          attributes format "libmpm state", formatVersion 1, dimension, time [s], step,
-///                                deltaT [s], slabs, seedSpacing (3) [m], nextId, materials (texts)
+///                                deltaT [s], seedSpacing (3) [m], nextId, materials (texts)
 ///     /particles/position        (N, dim)      float64 [m]
 ///     /particles/velocity        (N, dim)      float64 [m/s]
 ///     /particles/stress          (N, s)        float64 [Pa], Cauchy, tension positive; attribute components

@@ -5,8 +5,9 @@
 /// Lengths are measured in cells: s = (x - origin)/h, lambda = l/h with l the half length of the particle's domain.
 /// A shape is a struct with
 ///     nodes                 support, nodes per axis
-///     evaluate(x, lambda, origin, invH, w)   fills N, G [1/m] and the first node of each lane
+///     evaluate(x, lambda, origin, invH, w)   fills N, G [1/m] and the first node of each lane; x, lambda on 64 bytes
 /// Every shape keeps sum N = 1 and sum G = 0.
+#include "base/record.hpp"
 #include "base/types.hpp"
 
 #include <cmath>

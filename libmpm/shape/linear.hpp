@@ -14,6 +14,7 @@ struct Linear
     static constexpr int nodes = 2;
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;
+    using Narrow = Linear;
 
     static void evaluate(const double* x, const double*, double origin, double invH, AxisWeights<2>& w)
     {

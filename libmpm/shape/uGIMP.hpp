@@ -4,7 +4,8 @@
 ///     d < lambda               1 - (d^2 + lambda^2)/(2 lambda)
 ///     lambda <= d < 1 - lambda 1 - d
 ///     d < 1 + lambda           (1 + lambda - d)^2/(4 lambda)
-/// so three nodes per axis. l is half the initial edge, halved by splitting.
+/// so three nodes per axis. l is half the initial edge, halved by splitting. With d measured from the middle node and
+/// c = d held within [-lambda, lambda], the outer weights are (lambda -+ c)^2/(4 lambda) plus what |d| exceeds |c| by.
 ///
 ///     shape   uGIMP;       // mpmSchemes, the default
 ///
@@ -18,6 +19,7 @@ struct UGIMP
     static constexpr int nodes = 3;
     static constexpr bool hasDomain = true;
     static constexpr bool followsStretch = false;
+    using Narrow = UGIMP;
 
     static void evaluate(const double* x, const double* lambda, double origin, double invH, AxisWeights<3>& w)
     {
@@ -25,29 +27,17 @@ struct UGIMP
         {
             const double s = (x[l] - origin) * invH;
             const double first = std::floor(s - 0.5);
-            const double la = lambda[l];
-            const double over = 1 / la;
             w.base[l] = std::int32_t(first);
-
-            // nearest node, |d| <= 1/2: flat top or straight flank
-            const double d1 = s - (first + 1);
-            const double a1 = std::abs(d1);
-            const bool top = a1 < la;
-            w.N[1][l] = top ? 1 - 0.5 * (d1 * d1 * over + la) : 1 - a1;
-            w.G[1][l] = invH * (top ? -d1 * over : (d1 > 0 ? -1.0 : 1.0));
-
-            // outer nodes, 1/2 <= d < 3/2: straight flank or parabolic foot
-            const double d0 = d1 + 1;
-            const double foot0 = std::fmax(0.0, 1 + la - d0);
-            const bool flank0 = d0 < 1 - la;
-            w.N[0][l] = flank0 ? 1 - d0 : 0.25 * foot0 * foot0 * over;
-            w.G[0][l] = -invH * (flank0 ? 1.0 : 0.5 * foot0 * over);
-
-            const double d2 = 1 - d1;
-            const double foot2 = std::fmax(0.0, 1 + la - d2);
-            const bool flank2 = d2 < 1 - la;
-            w.N[2][l] = flank2 ? 1 - d2 : 0.25 * foot2 * foot2 * over;
-            w.G[2][l] = invH * (flank2 ? 1.0 : 0.5 * foot2 * over);
+            const double la = lambda[l], over = 0.5 / la;
+            const double d = s - (first + 1); // from the middle node, |d| <= 1/2
+            const double top = d < -la ? -la : d > la ? la : d; // what of it lies under the rounded top
+            const double right = (la + top) * over, left = (la - top) * over, beyond = d - top;
+            w.N[0][l] = 0.5 * (la - top) * left + (beyond < 0 ? -beyond : 0.0);
+            w.N[2][l] = 0.5 * (la + top) * right + (beyond > 0 ? beyond : 0.0);
+            w.N[1][l] = 1 - (w.N[0][l] + w.N[2][l]);
+            w.G[0][l] = -invH * left;
+            w.G[2][l] = invH * right;
+            w.G[1][l] = invH * (left - right);
         }
     }
 };

@@ -88,7 +88,7 @@ WeightTable fill(const state::State& state)
     WeightTable table;
     table.position = box.positions();
     shape::AxisWeights<n> w[dim];
-    double lambda[dim][lanes];
+    alignas(64) double lambda[dim][lanes];
     for (Index first = 0; first < p.size(); first += lanes)
     {
         domains<dim, Shape>(p, grid.h, first, lambda);

@@ -57,7 +57,6 @@ struct State
     double time = 0;       ///< [s]
     Index step = 0;        ///< steps done since the start
     double deltaT = 0;     ///< last time step used [s]; 0 before the first
-    Index slabs = 0;       ///< number of particle slabs sums are ordered by; 0: not chosen yet
     Vector3 seedSpacing{}; ///< lattice spacing of the seeding [m]
     Index nextId = 0;      ///< the next unused particle id
     GridBox grid;

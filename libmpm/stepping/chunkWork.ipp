@@ -1,177 +1,367 @@
-// The work of ExplicitStepper on one chunk of particles: velocity, strain, stress, domains.
+// The work of a particle pass on one tile and one chunk: weights, velocity, strain, stress, domains, projection.
 #pragma once
+#include "base/clock.hpp"
 #include "constitutive/kinematics.hpp"
 #include "stepping/explicitStepper.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mpm::stepping
 {
 /// sum V sigma : dEps over the lanes of a chunk.
 template <int dim>
-double workOfStrain(const constitutive::Chunk<dim>& chunk, const double* volume, int count)
+double workOfStrain(const constitutive::Chunk<dim>& chunk, const double (&volume)[lanes])
 {
-    double work = 0;
-    for (int l = 0; l < count; ++l)
-    {
-        double density = 0;
-        for (int k = 0; k < stressSize<dim>; ++k)
-            density += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
-        work += volume[l] * density;
-    }
-    return work;
+    alignas(64) double density[lanes] = {};
+    for (int k = 0; k < stressSize<dim>; ++k)
+        for (int l = 0; l < lanes; ++l)
+            density[l] += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
+    return transfer::sumOfProducts(volume, density);
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::gatherInto(const Half& half, const Weights& w, int count,
-                                             transfer::Gathered<dim>& g) const
+void ExplicitStepper<dim, Shape>::lap(Workspace& ws, double PassTimes::*part)
 {
-    if (half.strain)
-        transfer::gatherChunk<dim, Shape, true>(w, count, grid_.common, g);
-    else
-        transfer::gatherChunk<dim, Shape, false>(w, count, grid_.common, g);
+    if (!ws.timed)
+        return;
+    const double time = now();
+    ws.times.*part += time - ws.lapStart;
+    ws.lapStart = time;
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass)
+{
+    using Values = transfer::ValueNode<dim>;
+    if (ws.timed)
+        ws.lapStart = now();
+    if (ws.values.size() < std::size_t(grid_.largestWindow()))
+    {
+        ws.values.resize(std::size_t(grid_.largestWindow()));
+        ws.gradients.resize(std::size_t(grid_.largestWindow()));
+    }
+    if (pass.velocity)
+        grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
+    if (pass.strain && pass.gradientLane == 1)
+        grid_.copyToWindow(tile, ws.gradients.data(),
+                           [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); });
+    if (pass.strain && pass.gradientLane != 1)
+        grid_.copyToWindow(tile, ws.gradients.data(),
+                           [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });
+    lap(ws, &PassTimes::toParticles);
+    if (pass.reproject || pass.then == Project::momentum)
+        grid_.template clearWindow<HalfRecord>(tile);
+    else if (pass.then == Project::forces)
+        grid_.template clearWindow<Record>(tile);
+    lap(ws, &PassTimes::toGrid);
+    listColumns(ws.ahead, pass);
+    for (Index first = tile.first; first < tile.first + tile.count; first += lanes)
+        passOverChunk(ws, tile, first, int(std::min<Index>(lanes, tile.first + tile.count - first)), dt, pass);
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile& tile, Index first, int count,
+                                                double dt, const Pass& pass)
+{
+    auto& p = state_.particles;
+    ws.ahead.begin(first + lanes);
+    const auto prefetch = [&] { ws.ahead.some(); };
+    for (int a = 0; a < dim; ++a)
+    {
+        transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
+        transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
+    }
+    transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
+    loadDomains(ws, first, count);
+
+    if (pass.velocity || pass.strain)
+        withWeights(ws, ws.x, count, [&](auto& w) {
+            w.locate(tile.window); // as when these particles were projected
+            lap(ws, &PassTimes::weights);
+            if (pass.velocity)
+            {
+                gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
+                advanceVelocity(ws, first, count, dt);
+                lap(ws, &PassTimes::toParticles);
+            }
+            if (pass.reproject)
+            {
+                ws.momentum.build(ws.mass, ws.v);
+                projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, prefetch);
+                lap(ws, &PassTimes::toGrid);
+            }
+            if (pass.strain)
+            {
+                gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
+                lap(ws, &PassTimes::toParticles);
+            }
+        });
+    if (pass.strain)
+    {
+        updateStress(ws, first, count, dt);
+        lap(ws, &PassTimes::law);
+    }
+    if (pass.then == Project::nothing)
+        return;
+
+    if (pass.moves && !pass.velocity) // an earlier pass has left the new positions
+        for (int a = 0; a < dim; ++a)
+            transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
+    const Vectors& x = pass.moves ? ws.xNew : ws.x;
+    checkInside(ws, x, count);
+    withWeights(ws, x, count, [&](auto& w) {
+        const bool reached = w.locate(tile.window);
+        lap(ws, &PassTimes::weights);
+        ws.sums.stray = ws.sums.stray || !reached;
+        if (ws.sums.stray)
+            return;
+        if (pass.then == Project::momentum)
+        {
+            ws.momentum.build(ws.mass, ws.v);
+            projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, prefetch);
+        }
+        else
+        {
+            if (!pass.strain)
+            {
+                transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
+                for (int k = 0; k < stressSize<dim>; ++k)
+                    transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
+            }
+            ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
+            projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
+            if (scene_.bodyForce)
+            {
+                alignas(64) double b[3][lanes];
+                scene_.bodyForce->acceleration(p, first, count, state_.time, b);
+                projectBodyForce(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
+            }
+        }
+        lap(ws, &PassTimes::toGrid);
+    });
+}
+
+/// The columns a pass reads, in about the order it reads them.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const Pass& pass) const
+{
+    const auto& p = state_.particles;
+    ahead.clear();
+    for (int a = 0; a < dim; ++a)
+    {
+        ahead.add(p.x[a].data());
+        ahead.add(p.v[a].data());
+        if constexpr (Shape::hasDomain)
+            ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());
+        if (pass.velocity || pass.moves)
+            ahead.add(next_[a].data());
+    }
+    ahead.add(p.mass.data());
+    if (pass.strain)
+    {
+        for (int k = 0; k < dim * dim; ++k)
+            ahead.add(p.F[k].data());
+        ahead.add(p.volume0.data());
+    }
+    if (pass.strain || pass.then == Project::forces)
+    {
+        for (int k = 0; k < stressSize<dim>; ++k)
+            ahead.add(p.stress[k].data());
+        ahead.add(p.volume.data());
+    }
+}
+
+/// Weights at x by the shape, or by its narrow form where no domain of the chunk needs more nodes.
+template <int dim, class Shape>
+template <class Body>
+void ExplicitStepper<dim, Shape>::withWeights(Workspace& ws, const Vectors& x, int, Body&& body) const
+{
+    bool narrow = true;
+    if constexpr (Shape::followsStretch)
+    {
+        for (int a = 0; a < dim; ++a)
+            narrow = narrow && transfer::largest(ws.half[a]) <= 0.5;
+    }
+    if (narrow)
+    {
+        ws.narrow.evaluate(x, ws.half, state_.grid);
+        body(ws.narrow);
+    }
+    else if constexpr (Shape::followsStretch)
+    {
+        ws.wide.evaluate(x, ws.half, state_.grid);
+        body(ws.wide);
+    }
+}
+
+/// Half lengths of the domains over h: initial edges (uGIMP), or following the stretch (cpGIMP).
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::loadDomains(Workspace& ws, Index first, int count) const
+{
+    if constexpr (!Shape::hasDomain)
+        return;
+    for (int a = 0; a < dim; ++a)
+    {
+        if constexpr (Shape::followsStretch)
+            transfer::loadLanes(domain_[a].data() + first, count, ws.half[a]);
+        else
+        {
+            transfer::loadLanes(state_.particles.length0[a].data() + first, count, ws.half[a]);
+            const double scale = 0.5 / state_.grid.h;
+            for (int l = 0; l < lanes; ++l)
+                ws.half[a][l] = scale * ws.half[a][l] < 0.5 ? scale * ws.half[a][l] : 0.5;
+        }
+    }
+}
+
+/// Domains after F has changed (in ws.F). Those wider than the shape's support allows are held there and counted.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::updateDomains(Workspace& ws, Index first, int count)
+{
+    const auto& p = state_.particles;
+    const double scale = 0.5 / state_.grid.h;
+    constexpr double widest = Shape::followsStretch ? 1.0 : 0.5;
+    alignas(64) double U[dim][lanes];
+    if constexpr (Shape::followsStretch)
+        constitutive::stretchDiagonal(ws.F, U);
+    for (int a = 0; a < dim; ++a)
+    {
+        transfer::loadLanes(p.length0[a].data() + first, count, ws.half[a]);
+        for (int l = 0; l < lanes; ++l)
+        {
+            double half = scale * ws.half[a][l];
+            if constexpr (Shape::followsStretch)
+                half *= U[a][l];
+            const bool wide = half > widest * (1 + 1e-12);
+            ws.sums.cappedDomains += wide && l < count;
+            ws.half[a][l] = half > widest ? widest : half;
+        }
+        if constexpr (Shape::followsStretch)
+            transfer::storeLanes(domain_[a].data() + first, count, ws.half[a]);
+    }
+}
+
+/// Particles outside the grid, or nowhere, are strays too.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x, int) const
+{
+    for (int a = 0; a < dim; ++a)
+        if (!transfer::allWithin(x[a], state_.grid.origin[a], state_.grid.upper(a)))
+            ws.sums.stray = true;
 }
 
 /// v_p += dt sum N a (FLIP); with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
+/// New positions x + dt sum N v* go to ws.xNew and to next_.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::advanceVelocity(Index first, int count, double dt, const transfer::Gathered<dim>& g,
-                                                  SlabSums& sums)
+void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt)
 {
     auto& p = state_.particles;
     alignas(64) double vv[lanes] = {};
+    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * dt) : 0;
     for (int a = 0; a < dim; ++a)
     {
-        double* v = p.v[a].data() + first;
         for (int l = 0; l < lanes; ++l)
-            v[l] += dt * g.value[1 + dim + a][l];
-        if (scene_.picRate > 0)
         {
-            const double alpha = -std::expm1(-scene_.picRate * dt);
-            for (int l = 0; l < lanes; ++l)
-                v[l] += alpha * (g.value[1 + a][l] - v[l]);
+            const double flip = ws.v[a][l] + dt * ws.value.a[a][l];
+            ws.v[a][l] = flip + alpha * (ws.value.v[a][l] - flip);
+            vv[l] += ws.v[a][l] * ws.v[a][l];
+            ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.v[a][l];
         }
-        for (int l = 0; l < lanes; ++l)
-            vv[l] += v[l] * v[l];
+        transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
+        transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
     }
-    double kinetic = 0;
-    const double* m = p.mass.data() + first;
-    for (int l = 0; l < count; ++l)
-    {
-        kinetic += m[l] * vv[l];
-    }
-    sums.kinetic += 0.5 * kinetic;
+    ws.sums.kinetic += 0.5 * transfer::sumOfProducts(ws.mass, vv);
     if (scene_.bodyForce)
     {
         alignas(64) double b[3][lanes];
-        scene_.bodyForce->acceleration(p, first, time_, b);
+        scene_.bodyForce->acceleration(p, first, count, state_.time, b);
         for (int a = 0; a < dim; ++a)
             for (int l = 0; l < count; ++l)
             {
-                const double end = dt * m[l] * b[a][l] * g.value[1 + a][l];
-                sums.bodyForceEnd += end;
-                sums.bodyForceWork += end - 0.5 * dt * dt * m[l] * b[a][l] * g.value[1 + dim + a][l];
+                const double end = dt * ws.mass[l] * b[a][l] * ws.value.v[a][l];
+                ws.sums.bodyForceEnd += end;
+                ws.sums.bodyForceWork += end - 0.5 * dt * dt * ws.mass[l] * b[a][l] * ws.value.a[a][l];
             }
     }
 }
 
-/// F, V and stress from the velocity gradient in record lanes `lane`.
+/// F, V and stress from the velocity gradient.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::updateStress(Index first, int count, double dt, int lane,
-                                               const transfer::Gathered<dim>& g, SlabSums& sums)
+void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int count, double dt)
 {
     auto& p = state_.particles;
-    alignas(64) constitutive::TensorLanes<dim> L, F;
-    alignas(64) double J[lanes];
-    constitutive::Chunk<dim> chunk;
+    auto& sums = ws.sums;
+    auto& chunk = ws.law;
     chunk.count = count;
-    for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-            for (int l = 0; l < lanes; ++l)
-            {
-                L[a * dim + b][l] = g.gradient[b][lane + a][l];
-                F[a * dim + b][l] = p.F[a * dim + b][std::size_t(first + l)];
-            }
+    for (int k = 0; k < dim * dim; ++k)
+        transfer::loadLanes(p.F[k].data() + first, count, ws.F[k]);
     for (int k = 0; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            chunk.stress[k][l] = p.stress[k][std::size_t(first + l)];
-
-    const double* volume0 = p.volume0.data() + first;
-    double* volume = p.volume.data() + first;
-    constitutive::strainIncrement(L, dt, chunk.dStrain);
+        transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
+    constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
     if (scene_.stressUpdate != StressUpdate::USL)
-        sums.strainWork += workOfStrain(chunk, volume, count);
-    constitutive::advanceDeformation(L, dt, F);
-    constitutive::determinant(F, J);
-    constitutive::rotateStress(L, dt, chunk.stress);
-    callLaws(first, chunk);
-
-    bool good = true;
-    double smallest = sums.smallestJacobian;
-    for (int l = 0; l < lanes; ++l)
     {
-        volume[l] = volume0[l] * J[l];
-        good &= (J[l] > 0) & (J[l] < 1e30);
-        smallest = J[l] < smallest ? J[l] : smallest;
+        transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
+        sums.strainWork += workOfStrain(chunk, ws.volume);
     }
-    if (!good && sums.badParticle < 0)
+    ws.ahead.some(4);
+    constitutive::advanceDeformation(ws.L, dt, ws.F);
+    ws.ahead.some(4);
+    constitutive::determinant(ws.F, ws.J);
+    constitutive::rotateStress(ws.L, dt, chunk.stress);
+    ws.ahead.some(5);
+    callLaws(first, count, chunk);
+    ws.ahead.some(5);
+
+    transfer::loadLanesOrZero(p.volume0.data() + first, count, ws.volume);
+    for (int l = 0; l < lanes; ++l)
+        ws.volume[l] *= ws.J[l];
+    constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
+    if (!transfer::allWithin(ws.J, none, immense) && sums.badParticle < 0)
         for (int l = 0; l < count; ++l)
-            if (!(J[l] > 0 && J[l] < 1e30))
+            if (!(ws.J[l] >= none && ws.J[l] <= immense))
             {
                 sums.badParticle = first + l;
                 break;
             }
-    sums.smallestJacobian = smallest;
+    sums.smallestJacobian = std::min(sums.smallestJacobian, transfer::smallest(ws.J));
+    transfer::storeLanes(p.volume.data() + first, count, ws.volume);
     for (int k = 0; k < dim * dim; ++k)
-        for (int l = 0; l < lanes; ++l)
-            p.F[k][std::size_t(first + l)] = F[k][l];
+        transfer::storeLanes(p.F[k].data() + first, count, ws.F[k]);
     for (int k = 0; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            p.stress[k][std::size_t(first + l)] = chunk.stress[k][l];
+        transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
 
-    double plastic = 0, apex = 0, yield = sums.maxYield;
-    Index returns = 0;
-    for (int l = 0; l < count; ++l)
-    {
-        plastic += volume[l] * chunk.plasticWork[l];
-        apex += volume[l] * chunk.apexStrain[l];
-        returns += chunk.region[l] == constitutive::Region::apex;
-        yield = chunk.yield[l] > yield ? chunk.yield[l] : yield;
-    }
-    sums.plasticWork += plastic;
-    sums.apexVolume += apex;
-    sums.apexReturns += returns;
-    sums.maxYield = yield;
+    sums.plasticWork += transfer::sumOfProducts(ws.volume, chunk.plasticWork);
+    sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
+    sums.apexReturns += chunk.apexReturns;
+    sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
     if constexpr (Shape::followsStretch)
-        domainsOfChunk(first, sums);
+        updateDomains(ws, first, count);
 }
 
 /// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callLaws(Index first, constitutive::Chunk<dim>& chunk) const
+void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const
 {
     const std::int32_t* material = state_.particles.material.data() + first;
-    std::int32_t low = material[0], high = material[0];
-    for (int l = 0; l < lanes; ++l)
+    std::int32_t different = 0;
+    for (int l = 0; l < count; ++l)
+        different |= material[l] ^ material[0];
+    if (different == 0)
     {
-        low = std::min(low, material[l]);
-        high = std::max(high, material[l]);
-    }
-    if (low == high)
-    {
-        scene_.materials[std::size_t(low)].law->update(chunk);
+        scene_.materials[std::size_t(material[0])].law->update(chunk);
         return;
     }
+    const auto [low, high] = std::minmax_element(material, material + count);
     const constitutive::Chunk<dim> before = chunk;
-    for (std::int32_t m = low; m <= high; ++m)
+    for (std::int32_t m = *low; m <= *high; ++m)
     {
-        bool present = false;
-        for (int l = 0; l < lanes; ++l)
-            present = present || material[l] == m;
-        if (!present)
+        if (std::find(material, material + count, m) == material + count)
             continue;
         constitutive::Chunk<dim> own = before;
         scene_.materials[std::size_t(m)].law->update(own);
-        for (int l = 0; l < lanes; ++l)
+        for (int l = 0; l < count; ++l)
             if (material[l] == m)
             {
                 for (int k = 0; k < stressSize<dim>; ++k)
@@ -182,35 +372,6 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, constitutive::Chunk<dim>
                 chunk.region[l] = own.region[l];
             }
     }
-}
-
-/// Half lengths of the domains over h: initial edges (uGIMP), or following the right stretch (cpGIMP). Domains wider
-/// than the shape's support allows are held there and counted.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::domainsOfChunk(Index first, SlabSums& sums)
-{
-    const auto& p = state_.particles;
-    const double scale = 0.5 / state_.grid.h;
-    const double widest = Shape::followsStretch ? 1.0 : 0.5;
-    const int count = int(std::min<Index>(lanes, p.size() - first));
-    alignas(64) double U[dim][lanes];
-    if constexpr (Shape::followsStretch)
-    {
-        alignas(64) constitutive::TensorLanes<dim> F;
-        for (int k = 0; k < dim * dim; ++k)
-            for (int l = 0; l < lanes; ++l)
-                F[k][l] = p.F[k][std::size_t(first + l)];
-        constitutive::stretchDiagonal(F, U);
-    }
-    for (int a = 0; a < dim; ++a)
-        for (int l = 0; l < lanes; ++l)
-        {
-            double half = scale * p.length0[a][std::size_t(first + l)];
-            if constexpr (Shape::followsStretch)
-                half *= U[a][l];
-            const bool wide = half > widest * (1 + 1e-12);
-            sums.cappedDomains += wide && l < count;
-            lambda_[a][std::size_t(first + l)] = half > widest ? widest : half;
-        }
+    chunk.apexReturns = int(std::count(chunk.region, chunk.region + count, constitutive::Region::apex));
 }
 } // namespace mpm::stepping

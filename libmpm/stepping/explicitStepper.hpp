@@ -1,11 +1,16 @@
 #pragma once
 /// The step for one dimension and one shape. See stepper.hpp for the method; the functions below are its passes, in the
 /// order they run.
+///
+/// One pass over the particles of a tile does all that can be done while they are in cache: the pass that ends a step
+/// also projects the particles as it leaves them, which is the first projection of the next step. Sums are the same,
+/// bit for bit, as those of a projection on its own.
 #include "nodal/gravity.hpp"
 #include "nodal/traction.hpp"
 #include "nodal/wall.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
+#include "transfer/chunkColumns.hpp"
 #include "transfer/gridToParticle.hpp"
 #include "transfer/particleToGrid.hpp"
 
@@ -17,56 +22,102 @@ class ExplicitStepper : public Stepper
   public:
     ExplicitStepper(state::State& state, const Scene& scene);
     void step(double dt) override;
+    void particlesChanged() override;
     const StepReport& report() const override { return report_; }
-    const PassTimes& times() const override { return times_; }
+    PassTimes times() const override;
     double smallestNodalMassFraction() override;
     double largestSpeed() const override;
 
   private:
-    using Weights = transfer::ChunkWeights<dim, Shape>;
+    using Narrow = typename Shape::Narrow;
+    template <class S>
+    using Weights = transfer::ChunkWeights<dim, S>;
+    using Vectors = double[dim][lanes];
 
-    /// Sums over one slab; added in slab order.
-    struct SlabSums
+    enum class Project
+    {
+        nothing,
+        momentum, ///< mass and momentum
+        forces    ///< mass, momentum and internal force
+    };
+
+    /// What one pass over the particles does, in this order.
+    struct Pass
+    {
+        bool velocity = false;  ///< v += dt a, and new positions x + dt v*
+        bool reproject = false; ///< project m v of the updated particles with the weights of the old positions
+        bool strain = false;    ///< velocity gradient, F, V and stress
+        int gradientLane = 1;   ///< node lanes strains are taken from: 1: v*, 1 + dim: w
+        bool moves = false;     ///< the new positions take effect
+        Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
+    };
+
+    /// Sums over one tile; added in the order of the tiles.
+    struct TileSums
     {
         double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
         double strainWork = 0; ///< sum V sigma : D dt with stress and volume before the update
         double smallestJacobian = 1, maxYield = 0;
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
+        bool stray = false;     ///< a particle has left its tile's window, or the grid
     };
 
-    struct Half
+    /// One thread's chunk of particles and node windows.
+    struct Workspace
     {
-        bool strain = false;    ///< take velocity gradients from lanes `gradientLane` and update F and stress
-        bool velocity = false;  ///< v += dt a
-        bool position = false;  ///< x += dt v*
-        bool reproject = false; ///< add m v of the updated particles to the slab's window
-        int gradientLane = 1;   ///< 1: v*, 1 + dim: w
+        AlignedVector<typename transfer::ValueNode<dim>::Type> values;
+        AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
+        alignas(64) Vectors x, xNew, half, v;
+        alignas(64) double mass[lanes], volume[lanes];
+        alignas(64) constitutive::TensorLanes<dim> L, F;
+        alignas(64) double J[lanes];
+        constitutive::Chunk<dim> law;
+        transfer::Values<dim> value;
+        Weights<Shape> wide;
+        Weights<Narrow> narrow;
+        transfer::ParticleRecords<dim, transfer::Momentum> momentum;
+        transfer::ParticleRecords<dim, transfer::Forces> forces;
+        transfer::Prefetch ahead;
+        TileSums sums;
+        PassTimes times;
+        double lapStart = 0;
+        bool timed = false;
     };
 
     // passes
     void arrange();
-    void cutSlabs();
-    void coverParticles();
-    template <bool forces>
-    void particleToGrid();
+    void buildTiles();
+    void project();
+    template <class What>
+    void sumNodes(nodal::NodeRow<dim>& row, const state::Block& block);
     void solveNodes(double dt);
     void strainVelocities(double dt, bool secondProjection);
-    void gridToParticle(double dt, const Half& half);
+    void particlePass(double dt, const Pass& pass);
     void moveSurfaces(double dt);
-    void bookParticles(double dt, const Half& half);
+    void book(const Pass& pass);
 
-    // chunk work
-    void gatherInto(const Half& half, const Weights& w, int count, transfer::Gathered<dim>& g) const;
-    void advanceVelocity(Index first, int count, double dt, const transfer::Gathered<dim>& g, SlabSums& sums);
-    void updateStress(Index first, int count, double dt, int lane, const transfer::Gathered<dim>& g, SlabSums& sums);
-    void callLaws(Index first, constitutive::Chunk<dim>& chunk) const;
-    void domainsOfChunk(Index first, SlabSums& sums);
+    // the work of a pass on one tile and one chunk, in chunkWork.ipp
+    void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
+    void passOverChunk(Workspace& ws, const state::Tile& tile, Index first, int count, double dt, const Pass& pass);
+    void listColumns(transfer::Prefetch& ahead, const Pass& pass) const;
+    template <class Body>
+    void withWeights(Workspace& ws, const Vectors& x, int count, Body&& body) const;
+    void advanceVelocity(Workspace& ws, Index first, int count, double dt);
+    void updateStress(Workspace& ws, Index first, int count, double dt);
+    void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
+    void loadDomains(Workspace& ws, Index first, int count) const;
+    void updateDomains(Workspace& ws, Index first, int count);
+    void checkInside(Workspace& ws, const Vectors& x, int count) const;
+    template <class S, class What>
+    void projectAll(Workspace& ws, const Weights<S>& w, const state::Tile& tile, Index first, int count);
+    static void lap(Workspace& ws, double PassTimes::*part);
 
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
     void forEachRow(Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
+    [[noreturn]] void failOutside() const;
 
     state::State& state_;
     const Scene scene_;
@@ -76,14 +127,20 @@ class ExplicitStepper : public Stepper
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
 
-    transfer::DomainColumns lambda_;
-    state::NodeGrid grid_;
-    std::vector<Index> slabBegin_; ///< first particle of each slab, and the end
-    std::vector<SlabSums> slabSums_;
-    std::vector<nodal::NodeSums> rowSums_;
+    state::TileLayout layout_;
+    state::TileGrid grid_;
+    std::array<state::Column<double>, 3> domain_; ///< half lengths over h, where they follow the stretch
+    std::array<state::Column<double>, 3> next_;   ///< positions at the end of the step, between two passes
+    std::vector<TileSums> tileSums_;
+    std::vector<nodal::NodeSums> blockSums_;
+    std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread
     double smallestMass_ = 0;
-    double time_ = 0; ///< at the start of the step
+    bool arranged_ = false;  ///< tiles belong to the particles as they stand
+    bool projected_ = false; ///< windows hold the first projection of the coming step
+    bool stray_ = false;     ///< the last projection left particles out
     StepReport report_;
-    PassTimes times_;
+    PassTimes times_;            ///< of the parts with a clock of their own
+    PassTimes sampled_;          ///< of the parts of particle passes, in the steps that were sampled
+    double particleSeconds_ = 0; ///< wall time of all particle passes
 };
 } // namespace mpm::stepping

@@ -8,15 +8,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <omp.h>
 
 namespace mpm::stepping
 {
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
-    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid))
+    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)), layout_(state.grid)
 {
-    if (state.slabs == 0)
-        state.slabs = scene.defaultSlabs;
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
     for (const auto& wall : scene.walls)
@@ -29,7 +28,12 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
                 tractionPatch_.push_back(k);
             }
     sortByStoredKeys(state);
-    cutSlabs();
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::particlesChanged()
+{
+    arranged_ = projected_ = false;
 }
 
 // One step ------------------------------------------------------------------------------------------------------------
@@ -37,33 +41,29 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::step(double dt)
 {
-    time_ = state_.time;
     arrange();
-    coverParticles();
+    project();
     switch (scene_.stressUpdate)
     {
     case StressUpdate::MUSL:
-        particleToGrid<true>();
         solveNodes(dt);
-        gridToParticle(dt, {.velocity = true, .reproject = true});
+        particlePass(dt, {.velocity = true, .reproject = true});
         moveSurfaces(dt);
         strainVelocities(dt, true);
-        gridToParticle(dt, {.strain = true, .position = true, .gradientLane = 1 + dim});
+        particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USL:
-        particleToGrid<true>();
         solveNodes(dt);
         moveSurfaces(dt);
-        gridToParticle(dt, {.strain = true, .velocity = true, .position = true, .gradientLane = 1});
+        particlePass(
+            dt, {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USF:
-        particleToGrid<false>();
         strainVelocities(dt, false);
-        gridToParticle(dt, {.strain = true, .gradientLane = 1 + dim});
-        particleToGrid<true>();
+        particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .then = Project::forces});
         solveNodes(dt);
         moveSurfaces(dt);
-        gridToParticle(dt, {.velocity = true, .position = true});
+        particlePass(dt, {.velocity = true, .moves = true, .then = Project::momentum});
         break;
     }
     state_.time += dt;
@@ -71,196 +71,128 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     ++state_.step;
 }
 
-/// Splitting and sorting at their intervals; then slabs are cut anew.
+/// Splitting and sorting at their intervals, and a sort where a particle has left its window; then tiles are cut anew.
+/// What is done here follows from the state alone, so a continued run does the same.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::arrange()
 {
-    bool changed = false;
     if (scene_.splitting && state_.step % scene_.splitting->interval == 0)
     {
         Clock clock(times_.split);
-        changed = splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0;
+        if (splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0)
+        {
+            sortLoose(state_, layout_, Narrow::nodes);
+            arranged_ = false;
+        }
     }
-    const bool sort = state_.step % scene_.sortInterval == 0;
-    if (!sort && !changed)
-        return;
-    Clock clock(times_.sort);
-    if (sort)
-        sortByPosition(state_, Shape::nodes);
-    cutSlabs();
+    if (state_.step % scene_.sortInterval == 0 || stray_)
+    {
+        Clock clock(times_.sort);
+        sortByPosition(state_, layout_, Narrow::nodes);
+        arranged_ = false;
+    }
+    if (!arranged_)
+    {
+        Clock clock(times_.sort);
+        buildTiles();
+    }
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::cutSlabs()
+void ExplicitStepper<dim, Shape>::buildTiles()
 {
     const auto& p = state_.particles;
-    const std::size_t slabs = std::size_t(state_.slabs);
-    slabBegin_.resize(slabs + 1);
-    for (std::size_t s = 0; s <= slabs; ++s)
-        slabBegin_[s] = std::min(p.size(), Index(s) * p.chunks() / Index(slabs) * lanes);
-    slabBegin_[slabs] = p.size();
-    grid_.slabs.resize(slabs);
-    slabSums_.assign(slabs, {});
+    grid_.build(p, layout_, Shape::nodes - Narrow::nodes, Shape::nodes - 1);
+    tileSums_.assign(grid_.tiles().size(), {});
+    workspaces_.resize(std::size_t(std::max(1, omp_get_max_threads())));
+    for (int a = 0; a < dim; ++a)
+        next_[a].resize(p.mass.size());
     double largest = 0;
     for (Index i = 0; i < p.size(); ++i)
         largest = std::max(largest, p.mass[std::size_t(i)]);
     smallestMass_ = largest * 1e-60; // below it 1/m could overflow; far under any weight that matters
     if constexpr (Shape::hasDomain)
     {
-        SlabSums sums;
-        for (int a = 0; a < dim; ++a)
-            lambda_[a].resize(p.mass.size());
+        auto ws = std::make_unique<Workspace>();
+        for (int a = 0; a < dim && Shape::followsStretch; ++a)
+            domain_[a].resize(p.mass.size());
         for (Index first = 0; first < p.size(); first += lanes)
-            domainsOfChunk(first, sums);
-        report_.cappedDomains = sums.cappedDomains;
+        {
+            const int count = int(std::min<Index>(lanes, p.size() - first));
+            for (int k = 0; k < dim * dim; ++k)
+                transfer::loadLanes(p.F[k].data() + first, count, ws->F[k]);
+            updateDomains(*ws, first, count);
+        }
+        report_.cappedDomains = ws->sums.cappedDomains;
     }
+    arranged_ = true;
+    projected_ = false;
 }
 
-/// Windows of nodes around the particles of each slab; refuses particles outside the grid's box.
+/// The first projection of a step, unless the pass that ended the last one has made it.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::coverParticles()
+void ExplicitStepper<dim, Shape>::project()
 {
-    const auto& p = state_.particles;
-    const auto& box = state_.grid;
-    const int slabs = int(grid_.slabs.size());
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int s = 0; s < slabs; ++s)
+    const Project what = scene_.stressUpdate == StressUpdate::USF ? Project::momentum : Project::forces;
+    if (!projected_ || stray_)
+        particlePass(0, {.then = what});
+    if (stray_) // particles have moved on since they were sorted
     {
-        std::array<Index, 3> first{0, 0, 0}, last{0, 0, 0};
-        slabSums_[std::size_t(s)] = {};
+        arrange();
+        particlePass(0, {.then = what});
+        if (stray_)
+            failOutside();
+    }
+    projected_ = false;
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
+{
+    Clock clock(particleSeconds_);
+    const bool timed = state_.step % 16 == 0;
+    const auto& tiles = grid_.tiles();
+    const int count = int(tiles.size());
+    for (auto& ws : workspaces_)
+        if (ws)
+            ws->times = {};
+#pragma omp parallel
+    {
+        auto& ws = workspaces_[std::size_t(omp_get_thread_num())];
+        if (!ws)
+            ws = std::make_unique<Workspace>();
+        ws->timed = timed;
+#pragma omp for schedule(dynamic, 1)
+        for (int t = 0; t < count; ++t)
+        {
+            ws->sums = {};
+            passOverTile(*ws, tiles[std::size_t(t)], dt, pass);
+            tileSums_[std::size_t(t)] = ws->sums;
+        }
+    }
+    if (timed)
+        for (const auto& ws : workspaces_)
+            if (ws)
+                sampled_ += ws->times;
+    if (pass.moves)
         for (int a = 0; a < dim; ++a)
-        {
-            const double* x = p.x[a].data();
-            double low = std::numeric_limits<double>::infinity(), high = -low;
-            bool inside = true;
-            const double boxLow = box.origin[a], boxHigh = box.upper(a);
-            for (Index i = slabBegin_[std::size_t(s)]; i < slabBegin_[std::size_t(s) + 1]; ++i)
-            {
-                low = x[i] < low ? x[i] : low;
-                high = x[i] > high ? x[i] : high;
-                inside &= (x[i] >= boxLow) & (x[i] <= boxHigh);
-            }
-            if (!inside)
-                slabSums_[std::size_t(s)].badParticle = slabBegin_[std::size_t(s)];
-            if (!inside || low > high)
-            {
-                last[0] = -1;
-                break;
-            }
-            // one node more on each side: rounding here and in the weights may differ
-            first[a] = Index(shape::firstNode<Shape::nodes>(low, box.origin[a], 1 / box.h)) - 1;
-            last[a] = Index(shape::firstNode<Shape::nodes>(high, box.origin[a], 1 / box.h)) + Shape::nodes;
-        }
-        grid_.slabs[std::size_t(s)].cover(first, last);
-    }
-    for (const auto& sums : slabSums_)
-        if (sums.badParticle >= 0)
-            for (Index i = 0; i < p.size(); ++i)
-            {
-                Vector3 x{};
-                std::string place, range;
-                for (int a = 0; a < dim; ++a)
-                {
-                    x[a] = p.x[a][std::size_t(i)];
-                    place += fmt::format("{}{:g}", a ? ", " : "", x[a]);
-                    range += fmt::format("{}[{:g}, {:g}]", a ? " x " : "", box.origin[a], box.upper(a));
-                }
-                if (!box.contains(x))
-                    fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict",
-                                        place, range));
-            }
-    grid_.coverSlabs();
-    rowSums_.assign(std::size_t(grid_.common.rows()), {});
-}
-
-/// METHOD Eqs. 2, 3, 7 over all chunks.
-template <int dim, class Shape>
-template <bool forces>
-void ExplicitStepper<dim, Shape>::particleToGrid()
-{
-    Clock clock(times_.toGrid);
-    const auto& p = state_.particles;
-    const int slabs = int(grid_.slabs.size());
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int s = 0; s < slabs; ++s)
-    {
-        auto& window = grid_.slabs[std::size_t(s)];
-        window.clear();
-        Weights w;
-        transfer::ChunkRecords<dim> records;
-        alignas(64) double b[3][lanes];
-        for (Index first = slabBegin_[std::size_t(s)]; first < slabBegin_[std::size_t(s) + 1]; first += lanes)
-        {
-            const int count = int(std::min<Index>(lanes, p.size() - first));
-            const double* velocity[dim];
-            for (int a = 0; a < dim; ++a)
-                velocity[a] = p.v[a].data() + first;
-            if (forces && scene_.bodyForce)
-                scene_.bodyForce->acceleration(p, first, time_, b);
-            w.evaluate(p, lambda_, state_.grid, first);
-            records.template build<forces>(p, first, velocity, scene_.bodyForce ? b : nullptr);
-            transfer::scatterChunk<dim, Shape, forces>(w, records, count, window);
-        }
-    }
-}
-
-/// METHOD Eqs. 5, 6, 8 and the stress update, as far as `half` asks, over all chunks.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::gridToParticle(double dt, const Half& half)
-{
-    Clock clock(half.strain ? times_.constitutive : times_.toParticles);
-    auto& p = state_.particles;
-    const int slabs = int(grid_.slabs.size());
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int s = 0; s < slabs; ++s)
-    {
-        SlabSums sums;
-        auto& window = grid_.slabs[std::size_t(s)];
-        if (half.reproject)
-            window.clear();
-        Weights w;
-        transfer::Gathered<dim> g;
-        transfer::ChunkRecords<dim> records;
-        for (Index first = slabBegin_[std::size_t(s)]; first < slabBegin_[std::size_t(s) + 1]; first += lanes)
-        {
-            const int count = int(std::min<Index>(lanes, p.size() - first));
-            w.evaluate(p, lambda_, state_.grid, first);
-            gatherInto(half, w, count, g);
-            if (half.velocity)
-                advanceVelocity(first, count, dt, g, sums);
-            if (half.reproject)
-            {
-                const double* velocity[dim];
-                for (int a = 0; a < dim; ++a)
-                    velocity[a] = p.v[a].data() + first;
-                records.template build<false>(p, first, velocity, nullptr);
-                transfer::scatterChunk<dim, Shape, false>(w, records, count, window);
-            }
-            if (half.position)
-                for (int a = 0; a < dim; ++a)
-                    for (int l = 0; l < lanes; ++l)
-                        p.x[a][std::size_t(first + l)] += dt * g.value[1 + a][l];
-            if (half.strain)
-                updateStress(first, count, dt, half.gradientLane, g, sums);
-        }
-        slabSums_[std::size_t(s)] = sums;
-    }
-    bookParticles(dt, half);
+            std::swap(state_.particles.x[a], next_[a]);
+    book(pass);
 }
 
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
 {
     for (const std::size_t k : tractionPatch_)
-        nodal::movePatch<dim>(state_.patches[k], state_.grid, grid_.common, smallestMass_, dt);
+        nodal::movePatch<dim>(state_.patches[k], state_.grid, grid_, smallestMass_, dt);
 }
 
-/// Adds the slabs' sums in slab order and stops at the first bad particle.
+/// Adds the tiles' sums in the order of the tiles and stops at the first bad particle.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
+void ExplicitStepper<dim, Shape>::book(const Pass& pass)
 {
-    SlabSums total;
-    for (const auto& s : slabSums_)
+    TileSums total;
+    for (const auto& s : tileSums_)
     {
         if (s.badParticle >= 0)
             fail(s.badParticle,
@@ -276,20 +208,22 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         total.cappedDomains += s.cappedDomains;
         total.smallestJacobian = std::min(total.smallestJacobian, s.smallestJacobian);
         total.maxYield = std::max(total.maxYield, s.maxYield);
+        total.stray = total.stray || s.stray;
     }
     auto& ledger = state_.ledger;
-    if (half.velocity)
+    if (pass.velocity)
     {
         ledger.transferLoss -= total.kinetic - ledger.kineticEnergy;
         ledger.kineticEnergy = total.kinetic;
         ledger.bodyForceWork += total.bodyForceWork;
         ledger.pendingForceWork -= total.bodyForceEnd;
     }
-    if (half.strain)
+    if (pass.strain)
     {
         // Strains see a projected velocity w, the forces worked on v*: half of f_int . (v* - w) dt belongs to the
         // stress at either end of the step. USL takes its strains from v* itself.
-        if (scene_.stressUpdate != StressUpdate::USL && (state_.step > 0 || half.position))
+        const bool worked = scene_.stressUpdate == StressUpdate::MUSL || state_.step > 0;
+        if (scene_.stressUpdate != StressUpdate::USL && worked)
             ledger.transferLoss -= 0.5 * (ledger.pendingForceWork + total.strainWork);
         ledger.plasticDissipation += total.plasticWork;
         ledger.apexVolume += total.apexVolume;
@@ -299,30 +233,56 @@ void ExplicitStepper<dim, Shape>::bookParticles(double, const Half& half)
         if (Shape::followsStretch)
             report_.cappedDomains = total.cappedDomains;
     }
+    if (pass.then != Project::nothing)
+    {
+        projected_ = !scene_.bodyForce; // prescribed forces are asked for at the time and place of their step
+        stray_ = total.stray;
+    }
 }
 
 template <int dim, class Shape>
 double ExplicitStepper<dim, Shape>::smallestNodalMassFraction()
 {
-    coverParticles();
-    particleToGrid<false>();
-    double fraction = std::numeric_limits<double>::infinity();
+    if (!arranged_)
+        buildTiles();
+    if (!projected_ || stray_)
+    {
+        project();
+        projected_ = true;
+    }
     double density = 0;
     for (const auto& material : scene_.materials)
         density = std::max(density, material.density);
     const double full = density * std::pow(state_.grid.h, dim);
-    for (Index k = 0; k < grid_.common.n[2]; ++k)
-        for (Index j = 0; j < grid_.common.n[1]; ++j)
-        {
-            const Index rowJ = grid_.common.lo[1] + j, rowK = grid_.common.lo[2] + k;
-            grid_.sumRow(rowJ, rowK);
-            const auto [begin, end] = grid_.touched(rowJ, rowK);
-            const Record* node = grid_.common.row(rowJ, rowK) - grid_.common.lo[0];
-            for (Index i = begin; i < end; ++i)
-                if (node[i][0] > smallestMass_)
-                    fraction = std::min(fraction, node[i][0] / full);
-        }
-    return fraction;
+    std::vector<double> smallest(grid_.blocks().size(), std::numeric_limits<double>::infinity());
+    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        if (scene_.stressUpdate == StressUpdate::USF)
+            sumNodes<transfer::Momentum>(row, block);
+        else
+            sumNodes<transfer::Forces>(row, block);
+        double& least = smallest[std::size_t(&block - grid_.blocks().data())];
+        for (Index i = row.begin; i < row.end; ++i)
+            if (row.carries(i))
+                least = std::min(least, row.node[i][0] / full);
+    });
+    return smallest.empty() ? std::numeric_limits<double>::infinity()
+                            : *std::min_element(smallest.begin(), smallest.end());
+}
+
+/// The passes over particles do several things at once; their wall time is shared out as measured chunk by chunk in
+/// every 16th step.
+template <int dim, class Shape>
+PassTimes ExplicitStepper<dim, Shape>::times() const
+{
+    PassTimes t = sampled_;
+    const double all = t.weights + t.toGrid + t.toParticles + t.law;
+    const double scale = all > 0 ? particleSeconds_ / all : 0;
+    for (double PassTimes::*part : {&PassTimes::weights, &PassTimes::toGrid, &PassTimes::toParticles, &PassTimes::law})
+        t.*part *= scale;
+    t.nodal = times_.nodal;
+    t.sort = times_.sort;
+    t.split = times_.split;
+    return t;
 }
 
 template <int dim, class Shape>
@@ -345,6 +305,28 @@ void ExplicitStepper<dim, Shape>::fail(Index particle, const std::string& what) 
     const auto& p = state_.particles;
     throw StepError(fmt::format("step {} at time {:.9g} s: particle {} {}", state_.step, state_.time,
                                 p.id[std::size_t(particle)], what));
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::failOutside() const
+{
+    const auto& p = state_.particles;
+    const auto& box = state_.grid;
+    for (Index i = 0; i < p.size(); ++i)
+    {
+        Vector3 x{};
+        std::string place, range;
+        for (int a = 0; a < dim; ++a)
+        {
+            x[a] = p.x[a][std::size_t(i)];
+            place += fmt::format("{}{:g}", a ? ", " : "", x[a]);
+            range += fmt::format("{}[{:g}, {:g}]", a ? " x " : "", box.origin[a], box.upper(a));
+        }
+        if (!box.contains(x))
+            fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict", place,
+                                range));
+    }
+    throw StepError("a particle just sorted lies outside the nodes its key stands for"); // would be our own mistake
 }
 
 template <int dim, class Shape>

@@ -3,35 +3,57 @@
 #include "base/clock.hpp"
 #include "stepping/explicitStepper.hpp"
 
-#include <tuple>
-
 namespace mpm::stepping
 {
+/// Calls body(row, block) for all rows of all blocks; sums go to the block's place.
 template <int dim, class Shape>
 template <class Body>
 void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
 {
-    const Index rows = grid_.common.rows();
+    const auto& blocks = grid_.blocks();
+    const int count = int(blocks.size());
+    blockSums_.assign(blocks.size(), {});
 #pragma omp parallel
     {
         typename nodal::NodeRow<dim>::WallScratch walls;
         std::vector<Record> projected;
-#pragma omp for schedule(static)
-        for (Index r = 0; r < rows; ++r)
+#pragma omp for schedule(dynamic, 1)
+        for (int b = 0; b < count; ++b)
         {
+            const state::Block& block = blocks[std::size_t(b)];
+            const auto& box = block.box;
             nodal::NodeRow<dim> row;
-            row.j = grid_.common.lo[1] + r % grid_.common.n[1];
-            row.k = grid_.common.lo[2] + r / grid_.common.n[1];
-            std::tie(row.begin, row.end) = grid_.touched(row.j, row.k);
-            row.node = grid_.common.row(row.j, row.k) - grid_.common.lo[0];
             row.smallestMass = smallestMass_;
-            row.sums = &rowSums_[std::size_t(r)];
-            walls.clear();
+            row.sums = &blockSums_[std::size_t(b)];
             row.walls = &walls;
             row.projected = &projected;
-            body(row);
+            row.begin = box.lo[0];
+            row.end = box.lo[0] + box.n[0];
+            for (row.k = box.lo[2]; row.k < box.lo[2] + box.n[2]; ++row.k)
+                for (row.j = box.lo[1]; row.j < box.lo[1] + box.n[1]; ++row.j)
+                {
+                    row.node = grid_.nodes(block) + box.offset(row.begin, row.j, row.k) - row.begin;
+                    walls.clear();
+                    body(row, block);
+                }
         }
     }
+}
+
+/// The row's nodes: (m, p, f) summed over the windows of tiles.
+template <int dim, class Shape>
+template <class What>
+void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state::Block& block)
+{
+    using Node = typename What::Node;
+    Node sum[1 << state::TileLayout::bitsOf(dim)] = {};
+    grid_.template forEachWindow<Node>(block, row.j, row.k, [&](Index begin, Index end, const Node* in) {
+        Node* out = sum + (begin - row.begin);
+        for (Index i = 0; i < end - begin; ++i)
+            out[i] += in[i];
+    });
+    for (Index i = row.begin; i < row.end; ++i)
+        row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
 
 template <int dim, class Shape>
@@ -43,17 +65,22 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
         wall.rub(row);
 }
 
-/// Sums the slabs, then m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
+/// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes(double dt)
 {
     Clock clock(times_.nodal);
-    forEachRow([&](nodal::NodeRow<dim>& row) { grid_.sumRow(row.j, row.k); });
-    for (std::size_t k = 0; k < tractions_.size(); ++k)
-        tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_.common, smallestMass_);
-    forEachRow([&](nodal::NodeRow<dim>& row) {
+    const bool loaded = !tractions_.empty();
+    if (loaded)
+    {
+        forEachRow([&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); });
+        for (std::size_t k = 0; k < tractions_.size(); ++k)
+            tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_, smallestMass_);
+    }
+    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        if (!loaded)
+            sumNodes<transfer::Forces>(row, block);
         row.dt = dt;
-        row.projected->assign(row.node + row.begin, row.node + row.end);
         nodal::beginRow(row);
         for (const auto& effect : effects_)
             effect->apply(row);
@@ -61,18 +88,14 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
         for (const auto& effect : effects_)
             effect->book(row);
         nodal::endRow(row, 1 / dt);
-        for (Index i = row.begin; i < row.end; ++i)
-            for (int a = 0; a < dim; ++a)
-                row.sums->forceWork +=
-                    dt * (*row.projected)[std::size_t(i - row.begin)][1 + dim + a] * row.node[i][1 + a];
     });
     nodal::NodeSums sums;
-    for (const auto& row : rowSums_)
-        sums += row;
+    for (const auto& block : blockSums_)
+        sums += block;
     auto& ledger = state_.ledger;
     ledger.pendingForceWork = sums.forceWork;
     for (const auto& traction : tractions_)
-        ledger.pendingForceWork -= traction.book(grid_.common, dt, ledger.tractionWork, ledger.tractionImpulse);
+        ledger.pendingForceWork -= traction.book(dt, ledger.tractionWork, ledger.tractionImpulse);
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;
@@ -91,34 +114,28 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {
     Clock clock(times_.nodal);
-    forEachRow([&](nodal::NodeRow<dim>& row) {
-        if (!secondProjection)
-            grid_.sumRow(row.j, row.k);
-        else
-        {
-            for (Index i = row.begin; i < row.end; ++i)
-                for (int a = 0; a < dim; ++a)
-                    row.node[i][1 + dim + a] = 0;
-            for (const auto& s : grid_.slabs)
-                if (s.n[0] > 0 && row.j >= s.lo[1] && row.j < s.lo[1] + s.n[1] && row.k >= s.lo[2] &&
-                    row.k < s.lo[2] + s.n[2])
-                {
-                    const Record* in = s.row(row.j, row.k) - s.lo[0];
-                    for (Index i = s.lo[0]; i < s.lo[0] + s.n[0]; ++i)
-                        for (int a = 0; a < dim; ++a)
-                            row.node[i][1 + dim + a] += in[i][1 + a];
-                }
-        }
+    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
+        grid_.template forEachWindow<HalfRecord>(block, row.j, row.k, [&](Index begin, Index end, const HalfRecord* in) {
+            HalfRecord* out = sum + (begin - row.begin);
+            for (Index i = 0; i < end - begin; ++i)
+                out[i] += in[i];
+        });
         row.dt = dt;
         for (Index i = row.begin; i < row.end; ++i)
         {
+            const HalfRecord& s = sum[i - row.begin];
+            if (!secondProjection)
+                row.node[i] = transfer::finishNode<dim>(s);
             const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
             for (int a = 0; a < dim; ++a)
-                row.node[i][1 + dim + a] = inverse * row.node[i][(secondProjection ? 1 + dim : 1) + a];
+                row.node[i][1 + dim + a] = inverse * s[1 + a];
         }
         nodal::NodeSums unbooked;
+        auto* const booked = row.sums;
         row.sums = &unbooked;
         applyWalls(row);
+        row.sums = booked;
     });
 }
 } // namespace mpm::stepping

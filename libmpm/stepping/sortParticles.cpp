@@ -2,10 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace mpm::stepping
 {
+namespace
+{
+Index keyOf(const state::State& state, const state::TileLayout& layout, int supportNodes, std::size_t i)
+{
+    const auto& grid = state.grid;
+    std::array<Index, 3> base{};
+    for (int a = 0; a < grid.dim; ++a)
+    {
+        const double s = (state.particles.x[a][i] - grid.origin[a]) / grid.h;
+        // a particle that has left the box, or is nowhere, is refused by the pass that follows
+        const bool inside = s > -1 && s < double(grid.cells[a] + 1);
+        base[a] = inside ? Index(std::floor(s - 0.5 * (supportNodes - 2))) : 0;
+    }
+    return layout.key(base);
+}
+} // namespace
+
 void sortByStoredKeys(state::State& state)
 {
     auto& p = state.particles;
@@ -24,24 +42,28 @@ void sortByStoredKeys(state::State& state)
     p.permute(order);
 }
 
-void sortByPosition(state::State& state, int supportNodes)
+void sortByPosition(state::State& state, const state::TileLayout& layout, int supportNodes)
 {
     auto& p = state.particles;
-    const auto& grid = state.grid;
-    const double invH = 1 / grid.h, shift = 0.5 * (supportNodes - 2);
-    constexpr Index margin = 4; // supports reach beyond the box
+    for (Index i = 0; i < p.size(); ++i)
+        p.sortKey[std::size_t(i)] = keyOf(state, layout, supportNodes, std::size_t(i));
+    sortByStoredKeys(state);
+}
+
+void sortLoose(state::State& state, const state::TileLayout& layout, int supportNodes)
+{
+    auto& p = state.particles;
+    Index loose = 0;
     for (Index i = 0; i < p.size(); ++i)
     {
-        Index key = 0;
-        for (int a = p.dim - 1; a >= 0; --a)
-        {
-            const double s = (p.x[a][std::size_t(i)] - grid.origin[a]) * invH;
-            // a particle that has left the box, or is nowhere, is refused by the pass that follows
-            const bool inside = s > -1 && s < double(grid.cells[a] + 1);
-            key = key * (grid.cells[a] + 2 * margin) + (inside ? Index(std::floor(s - shift)) : 0) + margin;
-        }
-        p.sortKey[std::size_t(i)] = key;
+        auto& key = p.sortKey[std::size_t(i)];
+        if (key == std::numeric_limits<std::int64_t>::max())
+            key = state::looseKey + keyOf(state, layout, supportNodes, std::size_t(i));
+        loose += key >= state::looseKey;
     }
-    sortByStoredKeys(state);
+    if (8 * loose > p.size())
+        sortByPosition(state, layout, supportNodes);
+    else
+        sortByStoredKeys(state);
 }
 } // namespace mpm::stepping

@@ -33,8 +33,8 @@ class BodyForce
 {
   public:
     virtual ~BodyForce() = default;
-    /// b[axis][lane] [m/s^2] of the chunk that starts at particle `first`; fill all lanes.
-    virtual void acceleration(const state::Particles& particles, Index first, double time,
+    /// b[axis][lane] [m/s^2] of the `count` particles from `first` on.
+    virtual void acceleration(const state::Particles& particles, Index first, int count, double time,
                               double (&b)[3][lanes]) const = 0;
 };
 
@@ -50,7 +50,6 @@ struct Scene
     StressUpdate stressUpdate = StressUpdate::MUSL;
     double picRate = 0;      ///< r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20; ///< steps between sorts of the particles
-    Index defaultSlabs = 8;  ///< slabs of a fresh state; a stored state keeps its own
 };
 
 /// What the last step saw.
@@ -64,7 +63,25 @@ struct StepReport
 /// Seconds spent in the parts of the step since the start.
 struct PassTimes
 {
-    double toGrid = 0, nodal = 0, toParticles = 0, constitutive = 0, sort = 0, split = 0;
+    double weights = 0;     ///< shape functions and where a particle's nodes are
+    double toGrid = 0;      ///< projections
+    double nodal = 0;       ///< sums over tiles, equations of motion, walls
+    double toParticles = 0; ///< interpolation, velocity, position
+    double law = 0;         ///< deformation gradient, rotation of stress, material laws
+    double sort = 0;        ///< order of the particles and the tiles that follow from it
+    double split = 0;
+
+    PassTimes& operator+=(const PassTimes& o)
+    {
+        weights += o.weights;
+        toGrid += o.toGrid;
+        nodal += o.nodal;
+        toParticles += o.toParticles;
+        law += o.law;
+        sort += o.sort;
+        split += o.split;
+        return *this;
+    }
 };
 
 class Stepper
@@ -74,8 +91,11 @@ class Stepper
     /// Advances the state by dt. Throws StepError (particle outside the grid, det F <= 0, numbers no longer finite)
     /// with the state's arrays no longer usable: go back to the last good state.
     virtual void step(double dt) = 0;
+    /// To be called after anything but step() has changed particles (velocities set to zero, a state put back): the
+    /// stepper keeps their projection from one step to the next.
+    virtual void particlesChanged() = 0;
     virtual const StepReport& report() const = 0;
-    virtual const PassTimes& times() const = 0;
+    virtual PassTimes times() const = 0;
     /// Smallest mass of a node that carries mass over rho h^d of a full cell, for the stability limit.
     virtual double smallestNodalMassFraction() = 0;
     /// max |v_p| of the particles as they are [m/s].

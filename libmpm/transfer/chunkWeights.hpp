@@ -1,40 +1,46 @@
 #pragma once
-/// Weights of one chunk in all axes, and the offset of each lane's first node in a node window.
+/// Weights of one chunk in all axes, and the offset of each lane's first node in a box of nodes.
 #include "shape/axisWeights.hpp"
 #include "state/gridBox.hpp"
-#include "state/nodeGrid.hpp"
-#include "state/particles.hpp"
+#include "state/tileGrid.hpp"
 
 namespace mpm::transfer
 {
-/// What kernels need to know of particles besides their columns: domain half lengths over h, one column an axis
-/// (recomputed from length0 and F, never stored in a state).
-using DomainColumns = std::array<state::Column<double>, 3>;
-
 template <int dim, class Shape>
 struct ChunkWeights
 {
     static constexpr int n = Shape::nodes;
     shape::AxisWeights<n> axis[dim];
+    alignas(64) std::int32_t offset[lanes]; ///< of node (0, 0, 0) of each lane's support in the window
 
-    void evaluate(const state::Particles& p, const DomainColumns& lambda, const state::GridBox& grid, Index first)
+    /// x: positions [m]; half: half lengths of the domains over h (shapes without domains ignore them).
+    void evaluate(const double (&x)[dim][lanes], const double (&half)[dim][lanes], const state::GridBox& grid)
     {
         const double invH = 1 / grid.h;
         for (int a = 0; a < dim; ++a)
-            Shape::evaluate(p.x[a].data() + first, Shape::hasDomain ? lambda[a].data() + first : nullptr,
-                            grid.origin[a], invH, axis[a]);
+            Shape::evaluate(x[a], half[a], grid.origin[a], invH, axis[a]);
     }
 
-    /// offset[l] = index in `window` of node (0, 0, 0) of lane l's support.
-    void offsets(const state::NodeWindow& window, std::int64_t (&offset)[lanes]) const
+    /// Offsets in the window; false if a support reaches beyond it.
+    bool locate(const state::NodeBox& window)
     {
+        std::int32_t below = 0, above = 0;
+        std::int32_t stride = 1;
         for (int l = 0; l < lanes; ++l)
+            offset[l] = 0;
+        for (int a = 0; a < dim; ++a)
         {
-            Index o = axis[dim - 1].base[l] - window.lo[dim - 1];
-            for (int a = dim - 2; a >= 0; --a)
-                o = o * window.n[a] + (axis[a].base[l] - window.lo[a]);
-            offset[l] = o;
+            const auto lo = std::int32_t(window.lo[a]), room = std::int32_t(window.n[a]) - n;
+            for (int l = 0; l < lanes; ++l)
+            {
+                const std::int32_t i = axis[a].base[l] - lo;
+                below |= i;
+                above |= room - i;
+                offset[l] += stride * i;
+            }
+            stride *= std::int32_t(window.n[a]);
         }
+        return below >= 0 && above >= 0;
     }
 };
 } // namespace mpm::transfer

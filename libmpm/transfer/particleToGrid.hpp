@@ -1,155 +1,282 @@
 #pragma once
 /// Projection of particles to nodes, METHOD Eqs. 2, 3 and 7:
-///     m_i = sum m_p N_ip,   p_i = sum m_p v_p N_ip,   f_i = - sum V_p sigma_p . gradN_ip + sum m_p b_p N_ip
-/// A particle's contribution to node (a, b, c) is N A + dN/dx B_x + dN/dy B_y + dN/dz B_z with records
-/// A = (m, m v, m b), B_k = (0, 0, -V sigma_k). Lanes of a run share the first node (particles are sorted), so the run
-/// is summed in registers and added to memory once.
+///     m_i = sum m_p N_ip,   p_i = sum m_p v_p N_ip,   f_i = - sum V_p sigma_p . gradN_ip
+/// Shape functions are products over axes, and so are the terms of these sums. Which factor an axis contributes, N or
+/// its gradient G, depends on the lane of the record alone: in 2D the record (m, p_x, p_y, s_xx, s_xy, s_xy, s_yy),
+/// s = -V sigma, is multiplied by (N N N G G N N) of the x axis and (N N N N N G G) of the y axis; the two halves of the
+/// force are added when windows are summed (finishNode). Lanes of a run share the first node (particles are sorted),
+/// so the run is summed in registers and added to memory once.
+///
+/// Verified in tests/unit/transfer.cpp against sums over pairs of particles and nodes.
 #include "transfer/chunkWeights.hpp"
 
 namespace mpm::transfer
 {
-enum class Project
+/// What a pass projects.
+struct Momentum ///< mass and momentum: (m, p), half a record
 {
-    momentum,         ///< mass and momentum (the strains of USF, the second projection of MUSL)
-    momentumAndForces ///< mass, momentum, internal and body force
+    using Node = HalfRecord;
+};
+struct Forces ///< mass, momentum and internal force
+{
+    using Node = Record;
 };
 
-template <int dim, int n>
-inline constexpr int supportNodes = dim == 2 ? n* n : n* n* n;
-/// Records of all nodes of a support.
-template <int dim, int n>
-using Support = Record[supportNodes<dim, n>];
+/// The records of a chunk's particles.
+template <int dim, class What>
+struct ParticleRecords;
 
-/// Adds one particle's records to the accumulated support.
-template <int n, bool forces>
-inline void addToSupport(const shape::AxisWeights<n> (&w)[2], int l, const Record& a, const Record (&b)[3],
-                         Support<2, n>& sum)
+template <int dim>
+struct ParticleRecords<dim, Momentum>
 {
-    for (int j = 0; j < n; ++j)
+    HalfRecord r[lanes];
+
+    void build(const double (&mass)[lanes], const double (&v)[dim][lanes])
     {
-        Record plain = w[1].N[j][l] * a;
-        if constexpr (forces)
+        for (int g = 0; g < lanes; g += 8)
         {
-            plain += w[1].G[j][l] * b[1];
-            const Record alongX = w[1].N[j][l] * b[0];
-            for (int i = 0; i < n; ++i)
-                sum[j * n + i] += w[0].N[i][l] * plain + w[0].G[i][l] * alongX;
+            const Record m = load(mass + g);
+            Record t[4] = {m};
+            for (int a = 0; a < dim; ++a)
+                t[1 + a] = m * load(v[a] + g);
+            HalfRecord low[4], high[4];
+            for (int k = 0; k < 4; ++k)
+            {
+                low[k] = __builtin_shufflevector(t[k], t[k], 0, 1, 2, 3);
+                high[k] = __builtin_shufflevector(t[k], t[k], 4, 5, 6, 7);
+            }
+            transpose(low);
+            transpose(high);
+            for (int l = 0; l < 4; ++l)
+            {
+                r[g + l] = low[l];
+                r[g + 4 + l] = high[l];
+            }
         }
-        else
-            for (int i = 0; i < n; ++i)
-                sum[j * n + i] += w[0].N[i][l] * plain;
     }
+};
+
+template <>
+struct ParticleRecords<2, Forces>
+{
+    Record r[lanes];
+
+    void build(const double (&mass)[lanes], const double (&v)[2][lanes], const double (&volume)[lanes],
+               const double (&stress)[4][lanes])
+    {
+        for (int g = 0; g < lanes; g += 8)
+        {
+            const Record m = load(mass + g), minusV = -load(volume + g), shear = minusV * load(stress[3] + g);
+            Record t[8] = {m,     m * load(v[0] + g),         m * load(v[1] + g), minusV * load(stress[0] + g), shear,
+                           shear, minusV * load(stress[1] + g)};
+            transpose(t);
+            for (int l = 0; l < 8; ++l)
+                r[g + l] = t[l];
+        }
+    }
+};
+
+/// 3D: r = (m, p, s_z), and the columns s_x, s_y of s = -V sigma in lanes 4..6.
+template <>
+struct ParticleRecords<3, Forces>
+{
+    Record r[lanes], sx[lanes], sy[lanes];
+
+    void build(const double (&mass)[lanes], const double (&v)[3][lanes], const double (&volume)[lanes],
+               const double (&stress)[6][lanes])
+    {
+        for (int g = 0; g < lanes; g += 8)
+        {
+            const Record m = load(mass + g), minusV = -load(volume + g);
+            Record s[6];
+            for (int k = 0; k < 6; ++k)
+                s[k] = minusV * load(stress[k] + g);
+            Record t[8] = {m, m * load(v[0] + g), m * load(v[1] + g), m * load(v[2] + g), s[5], s[4], s[2]};
+            Record u[8] = {s[0], s[3], s[5], Record{}, s[3], s[1], s[4]}; // both columns share one transpose
+            transpose(t);
+            transpose(u);
+            for (int l = 0; l < 8; ++l)
+            {
+                r[g + l] = t[l];
+                sx[g + l] = __builtin_shufflevector(u[l], Record{}, 8, 9, 10, 11, 0, 1, 2, 15);
+                sy[g + l] = __builtin_shufflevector(u[l], Record{}, 8, 9, 10, 11, 4, 5, 6, 15);
+            }
+        }
+    }
+};
+
+template <class R, int count>
+inline void zero(R (&sum)[count])
+{
+    MPM_UNROLL
+    for (int k = 0; k < count; ++k)
+        sum[k] = R{};
 }
 
-template <int n, bool forces>
-inline void addToSupport(const shape::AxisWeights<n> (&w)[3], int l, const Record& a, const Record (&b)[3],
-                         Support<3, n>& sum)
+template <int n, class R>
+inline void addLayer(const R (&sum)[n * n], R* first, Index nx)
+{
+    MPM_UNROLL
+    for (int j = 0; j < n; ++j)
+        MPM_UNROLL
+        for (int i = 0; i < n; ++i)
+            first[j * nx + i] += sum[j * n + i];
+}
+
+/// Sums lanes [l0, l1), which share their first node, and adds them to the nodes. 2D, mass and momentum.
+template <int n>
+inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecords<2, Momentum>& p, int l0, int l1,
+                       HalfRecord* first, Index nx, Index)
+{
+    HalfRecord sum[n * n];
+    zero(sum);
+    for (int l = l0; l < l1; ++l)
+    {
+        HalfRecord x[n];
+        MPM_UNROLL
+        for (int i = 0; i < n; ++i)
+            x[i] = splat<HalfRecord>(w[0].N[i][l]);
+        MPM_UNROLL
+        for (int j = 0; j < n; ++j)
+        {
+            const HalfRecord row = splat<HalfRecord>(w[1].N[j][l]) * p.r[l];
+            MPM_UNROLL
+            for (int i = 0; i < n; ++i)
+                sum[j * n + i] += x[i] * row;
+        }
+    }
+    addLayer<n>(sum, first, nx);
+}
+
+/// 2D with internal force.
+template <int n>
+inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecords<2, Forces>& p, int l0, int l1,
+                       Record* first, Index nx, Index)
+{
+    Record sum[n * n];
+    zero(sum);
+    for (int l = l0; l < l1; ++l)
+    {
+        Record x[n];
+        MPM_UNROLL
+        for (int i = 0; i < n; ++i)
+            x[i] = choose(Mask{-1, -1, -1, 0, 0, -1, -1, -1}, w[0].N[i][l], w[0].G[i][l]);
+        MPM_UNROLL
+        for (int j = 0; j < n; ++j)
+        {
+            const Record y = choose(Mask{-1, -1, -1, -1, -1, 0, 0, -1}, w[1].N[j][l], w[1].G[j][l]);
+            const Record row = y * p.r[l];
+            MPM_UNROLL
+            for (int i = 0; i < n; ++i)
+                sum[j * n + i] += x[i] * row;
+        }
+    }
+    addLayer<n>(sum, first, nx);
+}
+
+/// 3D, layer by layer so that the sums of a layer stay in registers.
+template <int n>
+inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, Momentum>& p, int l0, int l1,
+                       HalfRecord* first, Index nx, Index nxy)
 {
     for (int k = 0; k < n; ++k)
     {
-        const double nz = w[2].N[k][l];
-        Record layer = nz * a, alongY{}, alongX{};
-        if constexpr (forces)
+        HalfRecord sum[n * n];
+        zero(sum);
+        for (int l = l0; l < l1; ++l)
         {
-            layer += w[2].G[k][l] * b[2];
-            alongY = nz * b[1];
-            alongX = nz * b[0];
-        }
-        for (int j = 0; j < n; ++j)
-        {
-            Record plain = w[1].N[j][l] * layer;
-            Record* row = sum + (k * n + j) * n;
-            if constexpr (forces)
+            const HalfRecord layer = splat<HalfRecord>(w[2].N[k][l]) * p.r[l];
+            MPM_UNROLL
+            for (int j = 0; j < n; ++j)
             {
-                plain += w[1].G[j][l] * alongY;
-                const Record x = w[1].N[j][l] * alongX;
+                const HalfRecord row = splat<HalfRecord>(w[1].N[j][l]) * layer;
+                MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    row[i] += w[0].N[i][l] * plain + w[0].G[i][l] * x;
+                    sum[j * n + i] += splat<HalfRecord>(w[0].N[i][l]) * row;
             }
-            else
-                for (int i = 0; i < n; ++i)
-                    row[i] += w[0].N[i][l] * plain;
         }
+        addLayer<n>(sum, first + k * nxy, nx);
     }
 }
 
-/// Adds a summed support to the window and clears it.
-template <int dim, int n>
-inline void flushSupport(Support<dim, n>& sum, Record* first, const state::NodeWindow& window)
+template <int n>
+inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, Forces>& p, int l0, int l1,
+                       Record* first, Index nx, Index nxy)
 {
-    const Index nx = window.n[0], nxy = window.n[0] * window.n[1];
-    for (int k = 0; k < (dim == 3 ? n : 1); ++k)
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-            {
-                Record& s = sum[(k * n + j) * n + i];
-                first[k * nxy + j * nx + i] += s;
-                s = Record{};
-            }
-}
-
-/// The records A and B of all lanes of a chunk, built from columns by 8 x 8 transposes.
-template <int dim>
-struct ChunkRecords
-{
-    Record a[lanes];
-    Record b[lanes][3];
-
-    /// `velocity` may be the columns of the particles or of an updated chunk; `bodyForce` (acceleration) may be null.
-    template <bool forces>
-    void build(const state::Particles& p, Index first, const double* const (&velocity)[dim],
-               const double (*bodyForce)[lanes])
+    for (int k = 0; k < n; ++k)
     {
-        static constexpr int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; // stress columns of sigma_k
-        for (int g = 0; g < lanes / 8; ++g)
+        Record sum[n * n];
+        zero(sum);
+        for (int l = l0; l < l1; ++l)
         {
-            const Record m = load(p.mass.data() + first + 8 * g);
-            Record r[8] = {m};
-            for (int k = 0; k < dim; ++k)
+            const double nz = w[2].N[k][l];
+            const Record z = choose(Mask{-1, -1, -1, -1, 0, 0, 0, -1}, nz, w[2].G[k][l]);
+            const Record layer = z * p.r[l], alongY = splat<Record>(nz) * p.sy[l], alongX = splat<Record>(nz) * p.sx[l];
+            MPM_UNROLL
+            for (int j = 0; j < n; ++j)
             {
-                r[1 + k] = m * load(velocity[k] + 8 * g);
-                if (forces && bodyForce)
-                    r[1 + dim + k] = m * load(&bodyForce[k][8 * g]);
-            }
-            transpose(r);
-            for (int l = 0; l < 8; ++l)
-                a[8 * g + l] = r[l];
-            if constexpr (forces)
-            {
-                const Record volume = load(p.volume.data() + first + 8 * g);
-                for (int row = 0; row < dim; ++row)
-                {
-                    Record s[8] = {};
-                    for (int k = 0; k < dim; ++k)
-                        s[1 + dim + k] = -volume * load(p.stress[component[row][k]].data() + first + 8 * g);
-                    transpose(s);
-                    for (int l = 0; l < 8; ++l)
-                        b[8 * g + l][row] = s[l];
-                }
+                const Record ny = splat<Record>(w[1].N[j][l]);
+                const Record plain = ny * layer + splat<Record>(w[1].G[j][l]) * alongY;
+                const Record slope = ny * alongX;
+                MPM_UNROLL
+                for (int i = 0; i < n; ++i)
+                    sum[j * n + i] += splat<Record>(w[0].N[i][l]) * plain + splat<Record>(w[0].G[i][l]) * slope;
             }
         }
+        addLayer<n>(sum, first + k * nxy, nx);
     }
-};
+}
 
-/// Adds `count` lanes of a chunk to the window.
-template <int dim, class Shape, bool forces>
-void scatterChunk(const ChunkWeights<dim, Shape>& w, const ChunkRecords<dim>& records, int count,
-                  state::NodeWindow& window)
+/// Adds `count` lanes of a chunk to a window of nodes; meanwhile() is called once a run (prefetching).
+template <int dim, class Shape, class What, class Meanwhile>
+void projectChunk(const ChunkWeights<dim, Shape>& w, const ParticleRecords<dim, What>& particles, int count,
+                  typename What::Node* window, const state::NodeBox& box, Meanwhile&& meanwhile)
+{
+    for (int l = 0; l < count;)
+    {
+        int end = l + 1;
+        while (end < count && w.offset[end] == w.offset[l])
+            ++end;
+        meanwhile();
+        projectRun<Shape::nodes>(w.axis, particles, l, end, window + w.offset[l], box.n[0], box.n[0] * box.n[1]);
+        l = end;
+    }
+}
+
+/// Adds m_p b_p N_ip of a prescribed acceleration b to the first force lanes of a window.
+template <int dim, class Shape>
+void projectBodyForce(const ChunkWeights<dim, Shape>& w, const double (&mass)[lanes], const double (&b)[3][lanes],
+                      int count, Record* window, const state::NodeBox& box)
 {
     constexpr int n = Shape::nodes;
-    alignas(64) std::int64_t offset[lanes];
-    w.offsets(window, offset);
-    Support<dim, n> sum = {};
-    std::int64_t current = offset[0];
     for (int l = 0; l < count; ++l)
-    {
-        if (offset[l] != current)
-        {
-            flushSupport<dim, n>(sum, window.nodes.data() + current, window);
-            current = offset[l];
-        }
-        addToSupport<n, forces>(w.axis, l, records.a[l], records.b[l], sum);
-    }
-    flushSupport<dim, n>(sum, window.nodes.data() + current, window);
+        for (int k = 0; k < (dim == 3 ? n : 1); ++k)
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                {
+                    double N = w.axis[0].N[i][l] * w.axis[1].N[j][l];
+                    if constexpr (dim == 3)
+                        N *= w.axis[2].N[k][l];
+                    Record& node = window[w.offset[l] + (k * box.n[1] + j) * box.n[0] + i];
+                    for (int a = 0; a < dim; ++a)
+                        node[1 + dim + a] += mass[l] * b[a][l] * N;
+                }
+}
+
+/// A summed record of projected forces -> (m, p, f).
+template <int dim>
+inline Record finishNode(const Record& r)
+{
+    if constexpr (dim == 3)
+        return r;
+    else
+        return __builtin_shufflevector(r, Record{}, 0, 1, 2, 3, 4, 8, 8, 8) +
+               __builtin_shufflevector(r, Record{}, 8, 8, 8, 5, 6, 8, 8, 8);
+}
+/// A summed half record -> (m, p, 0).
+template <int dim>
+inline Record finishNode(const HalfRecord& r)
+{
+    return dim == 3 ? Record{r[0], r[1], r[2], r[3]} : Record{r[0], r[1], r[2]};
 }
 } // namespace mpm::transfer

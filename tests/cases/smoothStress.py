@@ -42,7 +42,7 @@ def write_state(path, time, n=(8, 6), shuffle=True):
     path.parent.mkdir(parents=True, exist_ok=True)
     with h5py.File(path, "w") as file:
         file.attrs["format"], file.attrs["formatVersion"] = text("libmpm state"), np.int64(1)
-        for name, value in (("dimension", 2), ("step", 7), ("slabs", 8), ("nextId", 10 + count)):
+        for name, value in (("dimension", 2), ("step", 7), ("nextId", 10 + count)):
             file.attrs[name] = np.int64(value)
         file.attrs["time"], file.attrs["deltaT"], file.attrs["seedSpacing"] = time, 1e-3, np.array([H / 2, H / 2, 0.0])
         file.attrs["materials"] = np.array([b"soil"], dtype="S4")

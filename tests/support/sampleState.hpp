@@ -43,7 +43,6 @@ inline state::State sampleState(int dim, Index n)
     state.time = 0.1 + 0.2;
     state.step = 1234567890123;
     state.deltaT = 1.0 / 3.0;
-    state.slabs = 8;
     state.seedSpacing = {0.13, 0.14, dim == 3 ? 0.15 : 0.0};
     state.nextId = 3 * n + 17;
     state.grid.origin = {-12.1, 0.3, dim == 3 ? 0.7 : 0.0};

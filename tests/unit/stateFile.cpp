@@ -55,7 +55,6 @@ void requireSameBits(state::State a, state::State b)
     CHECK(std::memcmp(&a.time, &b.time, sizeof a.time) == 0);
     CHECK(a.step == b.step);
     CHECK(std::memcmp(&a.deltaT, &b.deltaT, sizeof a.deltaT) == 0);
-    CHECK(a.slabs == b.slabs);
     CHECK(a.seedSpacing == b.seedSpacing);
     CHECK(a.nextId == b.nextId);
     CHECK(a.grid.dim == b.grid.dim);

@@ -208,6 +208,7 @@ TEST_CASE("a column under pressure settles to sigma_yy = -p, with rollers at its
             for (auto& v : s.particles.v)
                 std::fill(v.begin(), v.end(), 0.0);
             s.ledger.kineticEnergy = 0;
+            stepper->particlesChanged();
         }
         last = s.ledger.kineticEnergy;
     }

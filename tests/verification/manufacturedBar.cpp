@@ -28,9 +28,10 @@ class BarForce : public stepping::BodyForce
 {
   public:
     BarForce(double A, std::vector<double> X) : A_(A), X_(std::move(X)) {}
-    void acceleration(const state::Particles& p, Index first, double t, double (&b)[3][lanes]) const override
+    void acceleration(const state::Particles& p, Index first, int count, double t,
+                      double (&b)[3][lanes]) const override
     {
-        for (int l = 0; l < lanes; ++l)
+        for (int l = 0; l < count; ++l)
         {
             const double X = X_[std::size_t(p.id[std::size_t(first + l)])];
             const double F = 1 + M_PI * A_ * std::cos(M_PI * X) * std::sin(speed * M_PI * t);

@@ -57,6 +57,7 @@ Errors settle(const std::string& shape, Index N)
             for (auto& v : s.particles.v)
                 std::fill(v.begin(), v.end(), 0.0);
             s.ledger.kineticEnergy = 0;
+            stepper->particlesChanged();
         }
         last = s.ledger.kineticEnergy;
     }

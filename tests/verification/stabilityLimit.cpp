@@ -66,6 +66,7 @@ double growth(const std::string& shape, StressUpdate update, double delta, doubl
         for (auto* columns : {&p.v[0], &p.v[1], &p.stress[0], &p.stress[1], &p.stress[2], &p.stress[3]})
             for (double& value : *columns)
                 value *= start / now;
+        stepper->particlesChanged();
         if (n >= steps - counted)
             grown += std::log(now / start);
     }

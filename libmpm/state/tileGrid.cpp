@@ -1,0 +1,172 @@
+#include "state/tileGrid.hpp"
+
+namespace mpm::state
+{
+TileLayout::TileLayout(const GridBox& grid) : dim_(grid.dim), bits_(bitsOf(grid.dim))
+{
+    for (int a = 0; a < dim_; ++a)
+        boxes_[a] = box(grid.cells[a] + (Index(1) << bits_)) + 1;
+}
+
+Index TileLayout::key(const std::array<Index, 3>& base) const
+{
+    const Index side = Index(1) << bits_;
+    std::array<Index, 3> boxes{};
+    Index inside = 0;
+    for (int a = dim_ - 1; a >= 0; --a)
+    {
+        const Index i = std::clamp(base[a], -side, (boxes_[a] - 1) * side - 1);
+        boxes[a] = box(i);
+        inside = (inside << bits_) + (i & (side - 1));
+    }
+    return (boxKey(boxes) << (dim_ * bits_)) + inside;
+}
+
+std::array<Index, 3> TileLayout::firstNode(Index key) const
+{
+    std::array<Index, 3> node{};
+    for (int a = 0; a < dim_; ++a)
+    {
+        node[a] = (key % boxes_[a] - 1) * (Index(1) << bits_);
+        key /= boxes_[a];
+    }
+    return node;
+}
+
+std::array<Index, 3> TileLayout::base(Index key) const
+{
+    key &= ~looseKey;
+    std::array<Index, 3> node = firstNode(key >> (dim_ * bits_));
+    for (int a = 0; a < dim_; ++a)
+        node[a] += (key >> (a * bits_)) & ((Index(1) << bits_) - 1);
+    return node;
+}
+
+void TileGrid::build(const Particles& particles, const TileLayout& layout, int below, int above)
+{
+    layout_.assign(1, layout);
+    findTiles(particles, below, above);
+    findBlocks();
+}
+
+void TileGrid::findTiles(const Particles& particles, int below, int above)
+{
+    const TileLayout& layout = layout_.front();
+    constexpr Index margin = 1;
+    tiles_.clear();
+    std::size_t records = 0;
+    largestWindow_ = 0;
+    for (Index i = 0; i < particles.size();)
+    {
+        const Index own = layout.tile(particles.sortKey[std::size_t(i)]);
+        std::array<Index, 3> low = layout.base(particles.sortKey[std::size_t(i)]), high = low;
+        Tile tile;
+        tile.first = i;
+        Index previous = -1;
+        for (; i < particles.size() && layout.tile(particles.sortKey[std::size_t(i)]) == own; ++i)
+        {
+            if (particles.sortKey[std::size_t(i)] == previous)
+                continue;
+            previous = particles.sortKey[std::size_t(i)];
+            const auto base = layout.base(previous);
+            for (int a = 0; a < layout.dim(); ++a)
+            {
+                low[a] = std::min(low[a], base[a]);
+                high[a] = std::max(high[a], base[a]);
+            }
+        }
+        tile.count = i - tile.first;
+        tile.window.n = {1, 1, 1};
+        for (int a = 0; a < layout.dim(); ++a)
+        {
+            tile.window.lo[a] = low[a] - below - margin;
+            tile.window.n[a] = high[a] + above + margin - tile.window.lo[a] + 1;
+        }
+        tile.start = records;
+        records += std::size_t(tile.window.size());
+        largestWindow_ = std::max(largestWindow_, tile.window.size());
+        tiles_.push_back(std::move(tile));
+    }
+    if (windows_.size() < records)
+        windows_.resize(records + records / 8);
+}
+
+void TileGrid::findBlocks()
+{
+    const TileLayout& layout = layout_.front();
+    struct Overlap
+    {
+        Index key, tile;
+    };
+    std::vector<Overlap> overlaps;
+    for (std::size_t t = 0; t < tiles_.size(); ++t)
+    {
+        const NodeBox& w = tiles_[t].window;
+        std::array<Index, 3> low{}, high{};
+        for (int a = 0; a < layout.dim(); ++a)
+        {
+            low[a] = layout.box(w.lo[a]);
+            high[a] = layout.box(w.lo[a] + w.n[a] - 1);
+        }
+        for (Index k = low[2]; k <= high[2]; ++k)
+            for (Index j = low[1]; j <= high[1]; ++j)
+                for (Index i = low[0]; i <= high[0]; ++i)
+                    overlaps.push_back({layout.boxKey({i, j, k}), Index(t)});
+    }
+    std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
+        return a.key != b.key ? a.key < b.key : a.tile < b.tile;
+    });
+    blocks_.clear();
+    std::size_t records = 0;
+    for (std::size_t o = 0; o < overlaps.size();)
+    {
+        Block block;
+        block.key = overlaps[o].key;
+        NodeBox whole;
+        whole.lo = layout.firstNode(block.key);
+        whole.n = {1, 1, 1};
+        for (int a = 0; a < layout.dim(); ++a)
+            whole.n[a] = Index(1) << layout.bits();
+        std::array<Index, 3> low{}, end{};
+        for (; o < overlaps.size() && overlaps[o].key == block.key; ++o)
+        {
+            Tile& tile = tiles_[std::size_t(overlaps[o].tile)];
+            const NodeBox both = whole.common(tile.window);
+            for (int a = 0; a < 3; ++a)
+            {
+                low[a] = block.tiles.empty() ? both.lo[a] : std::min(low[a], both.lo[a]);
+                end[a] = block.tiles.empty() ? both.lo[a] + both.n[a] : std::max(end[a], both.lo[a] + both.n[a]);
+            }
+            block.tiles.push_back(overlaps[o].tile);
+            tile.blocks.push_back(Index(blocks_.size()));
+        }
+        for (int a = 0; a < 3; ++a)
+        {
+            block.box.lo[a] = low[a];
+            block.box.n[a] = end[a] - low[a];
+        }
+        block.start = records;
+        records += std::size_t(block.box.size());
+        blocks_.push_back(std::move(block));
+    }
+    if (nodes_.size() < records)
+        nodes_.resize(records + records / 8);
+}
+
+Record* TileGrid::find(Index i, Index j, Index k)
+{
+    if (layout_.empty())
+        return nullptr;
+    const TileLayout& layout = layout_.front();
+    const std::array<Index, 3> node{i, j, k};
+    std::array<Index, 3> box{};
+    for (int a = 0; a < layout.dim(); ++a)
+        box[a] = layout.box(node[a]);
+    const Index key = layout.boxKey(box);
+    const auto found =
+        std::lower_bound(blocks_.begin(), blocks_.end(), key, [](const Block& b, Index wanted) { return b.key < wanted; });
+    if (found == blocks_.end() || found->key != key || !found->box.contains(i, j, k))
+        return nullptr;
+    return nodes(*found) + found->box.offset(i, j, k);
+}
+} // namespace mpm::state

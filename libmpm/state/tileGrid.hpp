@@ -1,0 +1,164 @@
+#pragma once
+/// The nodes in use, and who adds to them. The lattice is cut into boxes of 2^bits cells a side (16 in 2D, 8 in 3D):
+///     tile    the particles whose support starts in one box, contiguous in memory, and the window of nodes they may
+///             reach; a tile sums into its own window
+///     block   the nodes of one box that any window reaches; each sums the windows over it in the order of the tiles
+/// Sums are taken in an order the particles' keys fix, so they do not depend on the number of threads. Tiles and blocks
+/// exist only where particles are: memory and time follow the material, not the box of the grid.
+///
+/// Windows leave a margin of one cell for motion between two sorts; a particle that leaves its window calls for a sort
+/// (stepping/explicitStepper.hpp). Verified in tests/unit/tileGrid.cpp.
+#include "base/alignedVector.hpp"
+#include "base/record.hpp"
+#include "state/gridBox.hpp"
+#include "state/particles.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace mpm::state
+{
+/// Keys that order particles by tile (z, y, x), then by the first node of their support within it.
+class TileLayout
+{
+  public:
+    explicit TileLayout(const GridBox& grid);
+
+    /// Key of a support that starts at lattice node `base`; nodes far outside the grid share the outermost tiles.
+    Index key(const std::array<Index, 3>& base) const;
+    /// The node a key stands for.
+    std::array<Index, 3> base(Index key) const;
+    /// Tile of a key; tiles of loose particles (looseKey) count apart.
+    Index tile(Index key) const { return key >> (dim_ * bits_); }
+
+    int dim() const { return dim_; }
+    int bits() const { return bits_; }
+    /// Index of the box that holds lattice index i along an axis.
+    Index box(Index i) const { return (i >> bits_) + 1; }
+    Index boxKey(const std::array<Index, 3>& box) const { return (box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0]; }
+    std::array<Index, 3> firstNode(Index boxKey) const;
+
+    static constexpr int bitsOf(int dim) { return dim == 2 ? 4 : 3; }
+
+  private:
+    int dim_, bits_;
+    std::array<Index, 3> boxes_{1, 1, 1};
+};
+
+/// Added to the key of particles made since the last sort: they stand behind all others, in tiles of their own.
+inline constexpr Index looseKey = Index(1) << 62;
+
+/// A box of lattice nodes, x fastest.
+struct NodeBox
+{
+    std::array<Index, 3> lo{}, n{};
+    Index size() const { return n[0] * n[1] * n[2]; }
+    Index offset(Index i, Index j, Index k) const { return ((k - lo[2]) * n[1] + (j - lo[1])) * n[0] + (i - lo[0]); }
+    bool contains(Index i, Index j, Index k) const
+    {
+        return i >= lo[0] && i < lo[0] + n[0] && j >= lo[1] && j < lo[1] + n[1] && k >= lo[2] && k < lo[2] + n[2];
+    }
+    /// The nodes both boxes hold; empty boxes have n = 0 somewhere.
+    NodeBox common(const NodeBox& o) const
+    {
+        NodeBox both;
+        for (int a = 0; a < 3; ++a)
+        {
+            both.lo[a] = std::max(lo[a], o.lo[a]);
+            both.n[a] = std::max<Index>(0, std::min(lo[a] + n[a], o.lo[a] + o.n[a]) - both.lo[a]);
+        }
+        return both;
+    }
+};
+
+struct Tile
+{
+    Index first = 0, count = 0;    ///< its particles
+    NodeBox window;                ///< nodes they may reach
+    std::size_t start = 0;         ///< of the window in the windows' memory, in records
+    std::vector<Index> blocks;     ///< blocks its window overlaps
+};
+
+struct Block
+{
+    Index key = 0;
+    NodeBox box;
+    std::size_t start = 0;         ///< of its nodes in the nodes' memory
+    std::vector<Index> tiles;      ///< tiles whose windows overlap it, ascending
+};
+
+class TileGrid
+{
+  public:
+    /// Tiles of particles in the order of their keys. Supports reach `below` nodes before and `above` nodes beyond the
+    /// base of the key.
+    void build(const Particles& particles, const TileLayout& layout, int below, int above);
+
+    const std::vector<Tile>& tiles() const { return tiles_; }
+    const std::vector<Block>& blocks() const { return blocks_; }
+    Index largestWindow() const { return largestWindow_; }
+    std::size_t bytes() const { return (windows_.capacity() + nodes_.capacity()) * sizeof(Record); }
+
+    /// A tile's window: records of type R (Record or HalfRecord), as the box `window` orders them.
+    template <class R>
+    R* window(const Tile& tile)
+    {
+        return reinterpret_cast<R*>(windows_.data() + tile.start);
+    }
+    template <class R>
+    void clearWindow(const Tile& tile)
+    {
+        std::fill_n(window<R>(tile), std::size_t(tile.window.size()), R{});
+    }
+    Record* nodes(const Block& block) { return nodes_.data() + block.start; }
+    const Record* nodes(const Block& block) const { return nodes_.data() + block.start; }
+
+    /// Calls add(i0, i1, in) for each window over row (j, k) of the block, in the order of the tiles: in[0] belongs to
+    /// node i0.
+    template <class R, class Add>
+    void forEachWindow(const Block& block, Index j, Index k, Add&& add)
+    {
+        for (const Index t : block.tiles)
+        {
+            const Tile& tile = tiles_[std::size_t(t)];
+            const Index i0 = std::max(block.box.lo[0], tile.window.lo[0]);
+            const Index i1 = std::min(block.box.lo[0] + block.box.n[0], tile.window.lo[0] + tile.window.n[0]);
+            if (i0 < i1 && tile.window.contains(i0, j, k))
+                add(i0, i1, window<R>(tile) + tile.window.offset(i0, j, k));
+        }
+    }
+
+    /// out[window order] = repack(node record) for all nodes of a tile's window.
+    template <class R, class Repack>
+    void copyToWindow(const Tile& tile, R* out, Repack&& repack) const
+    {
+        for (const Index b : tile.blocks)
+        {
+            const Block& block = blocks_[std::size_t(b)];
+            const NodeBox both = tile.window.common(block.box);
+            for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
+                for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
+                {
+                    const Record* from = nodes(block) + block.box.offset(both.lo[0], j, k);
+                    R* to = out + tile.window.offset(both.lo[0], j, k);
+                    for (Index i = 0; i < both.n[0]; ++i)
+                        to[i] = repack(from[i]);
+                }
+        }
+    }
+
+    /// The record of a node, null where no window reaches.
+    Record* find(Index i, Index j, Index k);
+    const Record* find(Index i, Index j, Index k) const { return const_cast<TileGrid*>(this)->find(i, j, k); }
+
+  private:
+    void findTiles(const Particles& particles, int below, int above);
+    void findBlocks();
+
+    std::vector<Tile> tiles_;
+    std::vector<Block> blocks_; ///< by key
+    AlignedVector<Record> windows_, nodes_;
+    Index largestWindow_ = 0;
+    std::vector<TileLayout> layout_; ///< one, once built
+};
+} // namespace mpm::state

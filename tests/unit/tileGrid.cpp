@@ -1,0 +1,141 @@
+// Tiles of particles and blocks of nodes: keys, windows, sums in the order of the tiles, nothing where nothing is.
+#include "state/tileGrid.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace mpm;
+
+TEST_CASE("keys name their node, sort by tile first, and tiles are boxes of nodes")
+{
+    for (const int dim : {2, 3})
+    {
+        const state::GridBox grid{dim, {0, 0, 0}, 0.5, {70, 33, dim == 3 ? 20 : 1}};
+        const state::TileLayout layout(grid);
+        const Index side = Index(1) << layout.bits();
+        std::mt19937 random(5);
+        for (int n = 0; n < 2000; ++n)
+        {
+            std::array<Index, 3> a{}, b{};
+            for (int axis = 0; axis < dim; ++axis)
+            {
+                std::uniform_int_distribution<Index> place(-3, grid.cells[axis] + 2);
+                a[axis] = place(random);
+                b[axis] = place(random);
+            }
+            CHECK(layout.base(layout.key(a)) == a);
+            CHECK(layout.base(layout.key(a) + state::looseKey) == a);
+            bool same = true;
+            for (int axis = 0; axis < dim; ++axis)
+                same = same && std::floor(double(a[axis]) / double(side)) == std::floor(double(b[axis]) / double(side));
+            CHECK((layout.tile(layout.key(a)) == layout.tile(layout.key(b))) == same);
+        }
+    }
+}
+
+namespace
+{
+/// Particles at the given first nodes, sorted by their keys.
+state::Particles particlesAt(const state::TileLayout& layout, const std::vector<std::array<Index, 3>>& bases)
+{
+    state::Particles p(layout.dim());
+    p.resize(Index(bases.size()));
+    std::vector<Index> keys;
+    for (const auto& base : bases)
+        keys.push_back(layout.key(base));
+    std::sort(keys.begin(), keys.end());
+    std::copy(keys.begin(), keys.end(), p.sortKey.begin());
+    return p;
+}
+} // namespace
+
+TEST_CASE("blocks sum every window that reaches them, and windows read back what blocks hold")
+{
+    const state::GridBox grid{2, {0, 0, 0}, 1, {100, 40, 1}};
+    const state::TileLayout layout(grid);
+    const auto p = particlesAt(layout, {{0, 0, 0}, {15, 15, 0}, {16, 15, 0}, {17, 3, 0}, {31, 20, 0}, {90, 38, 0}});
+    state::TileGrid nodes;
+    nodes.build(p, layout, 0, 2);
+    REQUIRE(nodes.tiles().size() == 4);
+    Index particles = 0;
+    for (const auto& tile : nodes.tiles())
+    {
+        CHECK(tile.first == particles);
+        particles += tile.count;
+        for (Index n = 0; n < tile.window.size(); ++n) // every window holds 1 at each of its nodes
+            nodes.window<Record>(tile)[n] = splat<Record>(1);
+    }
+    CHECK(particles == p.size());
+    for (const auto& block : nodes.blocks())
+        for (Index j = block.box.lo[1]; j < block.box.lo[1] + block.box.n[1]; ++j)
+        {
+            std::vector<double> sum(std::size_t(block.box.n[0]), 0.0);
+            Index last = -1;
+            nodes.forEachWindow<Record>(block, j, 0, [&](Index i0, Index i1, const Record* in) {
+                for (Index i = i0; i < i1; ++i)
+                    sum[std::size_t(i - block.box.lo[0])] += in[i - i0][3];
+            });
+            for (const Index t : block.tiles)
+            {
+                CHECK(t > last);
+                last = t;
+            }
+            for (Index i = block.box.lo[0]; i < block.box.lo[0] + block.box.n[0]; ++i)
+            {
+                double expected = 0;
+                for (const auto& tile : nodes.tiles())
+                    expected += tile.window.contains(i, j, 0);
+                CHECK(sum[std::size_t(i - block.box.lo[0])] == expected);
+                Record* node = nodes.find(i, j, 0);
+                REQUIRE(node != nullptr);
+                (*node)[0] = double(1000 * j + i);
+            }
+        }
+    for (const auto& tile : nodes.tiles())
+    {
+        std::vector<double> seen(std::size_t(tile.window.size()), -1);
+        nodes.copyToWindow(tile, seen.data(), [](const Record& r) { return r[0]; });
+        for (Index j = tile.window.lo[1]; j < tile.window.lo[1] + tile.window.n[1]; ++j)
+            for (Index i = tile.window.lo[0]; i < tile.window.lo[0] + tile.window.n[0]; ++i)
+                CHECK(seen[std::size_t(tile.window.offset(i, j, 0))] == double(1000 * j + i));
+    }
+    CHECK(nodes.find(60, 10, 0) == nullptr);
+    CHECK(nodes.find(-30, 500, 0) == nullptr);
+}
+
+TEST_CASE("a window leaves a cell for motion around the support of its particles")
+{
+    const state::GridBox grid{3, {0, 0, 0}, 1, {50, 50, 50}};
+    const state::TileLayout layout(grid);
+    const auto p = particlesAt(layout, {{9, 10, 11}, {12, 10, 15}});
+    state::TileGrid nodes;
+    nodes.build(p, layout, 1, 3);
+    REQUIRE(nodes.tiles().size() == 1);
+    const auto& window = nodes.tiles()[0].window;
+    CHECK(window.lo == std::array<Index, 3>{7, 8, 9});
+    CHECK(window.n == std::array<Index, 3>{10, 7, 11});
+}
+
+TEST_CASE("memory follows the particles, not the box of the grid")
+{
+    const auto bytes = [](Index cells) {
+        const state::GridBox grid{2, {0, 0, 0}, 1, {cells, cells, 1}};
+        const state::TileLayout layout(grid);
+        const auto p = particlesAt(layout, {{1, 1, 0}, {cells - 3, cells - 3, 0}});
+        state::TileGrid nodes;
+        nodes.build(p, layout, 0, 2);
+        return nodes.bytes();
+    };
+    CHECK(bytes(100000) == bytes(100));
+}
+
+TEST_CASE("without particles there are no nodes")
+{
+    const state::GridBox grid{2, {0, 0, 0}, 1, {10, 10, 1}};
+    state::TileGrid nodes;
+    CHECK(nodes.find(0, 0, 0) == nullptr);
+    nodes.build(state::Particles(2), state::TileLayout(grid), 0, 2);
+    CHECK(nodes.tiles().empty());
+    CHECK(nodes.blocks().empty());
+    CHECK(nodes.find(0, 0, 0) == nullptr);
+}
