@@ -113,7 +113,8 @@ struct Run
     {
         const auto totals = stepping::totals(state, scene.materials);
         std::string rows;
-        for (const auto& row : {stepping::historyRow(state, totals, stepper->report()), stepping::budgetRow(state, totals)})
+        for (const auto& row :
+             {stepping::historyRow(state, totals, stepper->report()), stepping::budgetRow(state, totals)})
             for (const double value : row)
                 rows += output::shortest(value) + ",";
         return rows.size();

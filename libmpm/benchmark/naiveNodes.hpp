@@ -125,7 +125,8 @@ class NaiveNodes
             });
         for (const auto& wall : walls)
             if (wall.type == nodal::WallType::friction)
-                forEachBehind(wall, [&](Node<dim>& node) { rub(wall, node.pushed[wall.axis] * wall.side, node.*lane); });
+                forEachBehind(wall,
+                              [&](Node<dim>& node) { rub(wall, node.pushed[wall.axis] * wall.side, node.*lane); });
     }
 
     static void rub(const nodal::Wall& wall, double into, double (&u)[dim])

@@ -173,7 +173,7 @@ class Naive : public NaiveStepper
     {
         nodes_.clear(mass, forces);
         for (const auto& p : particles_)
-            forEachNode(p, [&](Node<dim>& node, double N, const double (&G)[dim]) {
+            forEachNode(p, [&](Node<dim>& node, double N, const double(&G)[dim]) {
                 if (mass)
                     node.mass += p.mass * N;
                 for (int a = 0; a < dim; ++a)
@@ -204,7 +204,7 @@ class Naive : public NaiveStepper
     void move(Particle<dim>& p, double dt, const Sweep& sweep, int l, constitutive::TensorLanes<dim>& L)
     {
         double a[dim] = {}, moved[dim] = {}, gradient[dim][dim] = {};
-        forEachNode(p, [&](const Node<dim>& node, double N, const double (&G)[dim]) {
+        forEachNode(p, [&](const Node<dim>& node, double N, const double(&G)[dim]) {
             for (int k = 0; k < dim; ++k)
             {
                 a[k] += N * node.acceleration[k];

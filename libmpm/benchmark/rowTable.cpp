@@ -42,9 +42,12 @@ const Row* withOneThread(const std::vector<Row>& rows, const Row& row)
 std::vector<std::string> describe(const Row& row)
 {
     const Setting& s = row.setting;
-    return {std::to_string(s.dimension), s.shape,
-            stepping::stressUpdateName(s.stressUpdate), s.law,
-            std::to_string(row.particles), std::to_string(s.threads)};
+    return {std::to_string(s.dimension),
+            s.shape,
+            stepping::stressUpdateName(s.stressUpdate),
+            s.law,
+            std::to_string(row.particles),
+            std::to_string(s.threads)};
 }
 } // namespace
 
@@ -71,8 +74,7 @@ std::string tableOf(const std::vector<Row>& rows)
               row.naive ? fmt::format("{:.2f}", row.naive->median / row.ours.median) : "-",
               single ? fmt::format("{:.2f}", single->ours.median / row.ours.median) : "-", giga(row.bandwidth()),
               giga(row.flopRate()), giga(row.triad), giga(row.fmaPeak), percent(row.rooflineShare()),
-              fmt::format("{:.0f}", row.residentBytes), fmt::format("{:.0f}", row.columnBytes),
-              percent(row.yielding)})
+              fmt::format("{:.0f}", row.residentBytes), fmt::format("{:.0f}", row.columnBytes), percent(row.yielding)})
             cells.push_back(cell);
         times.row(cells);
         auto shares = describe(row);

@@ -25,7 +25,8 @@ std::vector<std::string> split(const std::string& option, const std::string& tex
             words.back() += c;
     std::erase(words, "");
     if (words.empty())
-        throw InputError(fmt::format("-{}: found '{}', allowed one or several values, separated by commas", option, text));
+        throw InputError(
+            fmt::format("-{}: found '{}', allowed one or several values, separated by commas", option, text));
     return words;
 }
 

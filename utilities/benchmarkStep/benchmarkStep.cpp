@@ -13,10 +13,12 @@ int main(int argc, char** argv)
     info.usesCase = false;
     info.options = benchmark::settingOptions();
     info.details =
-        "Needs no case: the column of cases/collapsingSoilColumn runs to 0.5 s coarsely and is refined to the numbers of\n"
+        "Needs no case: the column of cases/collapsingSoilColumn runs to 0.5 s coarsely and is refined to the numbers "
+        "of\n"
         "particles asked for. Lists are separated by commas; every combination is a row.\n"
         "\n"
-        "ns          per particle and step: median of blocks, fastest and slowest; the energy budget of every 100th step\n"
+        "ns          per particle and step: median of blocks, fastest and slowest; the energy budget of every 100th "
+        "step\n"
         "            is in it\n"
         "naive       an array of structures and plain loops over particle-node pairs, one thread\n"
         "speedup     against the row with one thread\n"
