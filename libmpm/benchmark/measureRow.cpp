@@ -139,15 +139,17 @@ struct Blocks
 {
     Timing timing;
     std::vector<std::pair<std::string, double>> passes; ///< shares
+    double yielding = 0;                                ///< share, mean of the ends of the blocks
 };
 
 Blocks runBlocks(std::unique_ptr<Run>& run, ColumnCache& columns, const ColumnSize& size, const Setting& setting)
 {
     std::vector<double> seconds;
     std::map<std::string, double> spent;
-    double total = 0;
+    double total = 0, yielding = 0;
+    const int blockCount = setting.quick ? 3 : 5;
     const Index steps = blockSteps(*run, setting.quick);
-    for (int block = 0; block < (setting.quick ? 3 : 5); ++block)
+    for (int block = 0; block < blockCount; ++block)
     {
         if (run->state.time + double(steps) * run->state.deltaT > lastTime)
         {
@@ -161,11 +163,12 @@ Blocks runBlocks(std::unique_ptr<Run>& run, ColumnCache& columns, const ColumnSi
         const double charged = stepping + budget * double(steps) / double(budgetInterval);
         seconds.push_back(charged / done);
         total += charged;
+        yielding += yieldingShare(run->state, run->scene.materials) / blockCount;
         const auto after = passSeconds(run->stepper->times());
         for (std::size_t i = 0; i < after.size(); ++i)
             spent[after[i].first] += after[i].second - before[i].second;
     }
-    Blocks blocks{timingOf(std::move(seconds)), {}};
+    Blocks blocks{timingOf(std::move(seconds)), {}, yielding};
     double other = total;
     for (const auto& [name, unused] : passSeconds(run->stepper->times()))
     {
@@ -200,7 +203,7 @@ Row Bench::measure(const Setting& setting)
     row.columnBytes = columnBytes(run->state.particles) / double(run->state.particles.size());
     row.ours = blocks.timing;
     row.passes = blocks.passes;
-    row.yielding = yieldingShare(run->state, run->scene.materials);
+    row.yielding = blocks.yielding;
     return row;
 }
 

@@ -35,8 +35,8 @@ struct Row
     std::vector<std::pair<std::string, double>> passes; ///< share of the time a pass takes; "other" is the rest
     double residentBytes = 0;                           ///< a particle
     double columnBytes = 0;                             ///< a particle, of the columns of the state
-    double yielding = 0;                                ///< share of particles on the yield surface, at the end
-    double triad = 0, fmaPeak = 0;                      ///< [B/s], [flop/s]
+    double yielding = 0;           ///< share of particles on the yield surface, mean of the blocks' ends
+    double triad = 0, fmaPeak = 0; ///< [B/s], [flop/s]
     Work work;
 
     /// Achieved rates [B/s], [flop/s] by the counts of roofline.hpp, and the share of the roofline.
