@@ -11,7 +11,7 @@
 /// with its F, v and sigma and halves of its edges, and the cells are halved. So every size does the same work at the
 /// same time of the same collapse, and none costs a long run.
 ///
-/// Verified in tests/unit/benchmark.cpp: counts; mass, volume, momentum and centre are kept to round-off.
+/// Verified in tests/unit/benchmarkRows.cpp: counts; mass, volume, momentum and centre are kept to round-off.
 #include "stepping/stepper.hpp"
 
 #include <map>

@@ -38,7 +38,7 @@
 /// the outermost sums of v*, 2 n d (the others are those of the gradient). USF projects mass and momentum, then
 /// forces; interpolates grad v, a and v*.
 ///
-/// Verified in tests/unit/benchmark.cpp.
+/// Verified in tests/unit/benchmarkRows.cpp.
 #include "stepping/stepper.hpp"
 
 #include <string>

@@ -1,11 +1,26 @@
 // How long a time step takes on a collapsing soil column, beside what the machine can do and what a naive step takes.
+#include "base/error.hpp"
+#include "base/terminal.hpp"
 #include "base/version.hpp"
 #include "benchmark/rowTable.hpp"
 #include "output/replaceFile.hpp"
 
 #include <fmt/format.h>
+#include <fstream>
 
 using namespace mpm;
+
+namespace
+{
+/// Said before minutes of work are lost.
+void requireWritable(const std::string& file)
+{
+    const auto trial = output::temporaryName(file);
+    if (!std::ofstream(trial))
+        throw InputError("-json: found '" + file + "', which cannot be written, allowed a file in a folder of yours");
+    std::filesystem::remove(trial);
+}
+} // namespace
 
 int main(int argc, char** argv)
 {
@@ -26,20 +41,27 @@ int main(int argc, char** argv)
         "triad, fma  what this machine reaches with these threads: a = b + s c in memory [GB/s], multiply-adds [GF/s]\n"
         "roofline    max(bytes/triad, flops/fma) over the time\n"
         "B/particle  resident memory of the run; columns: that of the state alone\n"
-        "yielding    particles on the yield surface";
+        "yielding    particles on the yield surface\n"
+        "\n"
+        "With several threads set OMP_WAIT_POLICY=passive, as etc/bashrc does: threads that spin slow each other down.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const auto settings = benchmark::readSettings(options);
         const auto json = options.value("json");
         if (!json.empty())
-            output::replaceText(json, "[]\n"); // told before the work if it cannot be written
-        fmt::print("benchmarkStep, libmpm {} ({}, {})\n\n", projectVersion(), gitRevision(), instructionSet());
+            requireWritable(json);
+        fmt::print("benchmarkStep, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), instructionSet());
         benchmark::Bench bench;
         std::vector<benchmark::Row> rows;
+        Progress progress("benchmarkStep", 0, double(settings.size()));
         for (const auto& setting : settings)
+        {
             rows.push_back(bench.measure(setting));
-        fmt::print("{}", benchmark::tableOf(rows));
-        if (!json.empty())
-            output::replaceText(json, benchmark::jsonOf(rows));
+            progress.update(double(rows.size()), fmt::format("{} of {} rows", rows.size(), settings.size()));
+            if (!json.empty())
+                output::replaceText(json, benchmark::jsonOf(rows));
+        }
+        progress.finish();
+        fmt::print("\n{}", benchmark::tableOf(rows));
         return 0;
     });
 }
