@@ -1,10 +1,10 @@
 // How long a time step takes on a collapsing soil column, beside what the machine can do and what a naive step takes.
 #include "base/error.hpp"
-#include "base/terminal.hpp"
 #include "base/version.hpp"
 #include "benchmark/rowTable.hpp"
 #include "output/replaceFile.hpp"
 
+#include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
 
@@ -52,15 +52,15 @@ int main(int argc, char** argv)
         fmt::print("benchmarkStep, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), instructionSet());
         benchmark::Bench bench;
         std::vector<benchmark::Row> rows;
-        Progress progress("benchmarkStep", 0, double(settings.size()));
         for (const auto& setting : settings)
         {
             rows.push_back(bench.measure(setting));
-            progress.update(double(rows.size()), fmt::format("{} of {} rows", rows.size(), settings.size()));
+            fmt::print("{} of {}: {}D {} {} particles, {:.1f} ns\n", rows.size(), settings.size(), setting.dimension,
+                       setting.shape, rows.back().particles, 1e9 * rows.back().ours.median);
+            std::fflush(stdout);
             if (!json.empty())
                 output::replaceText(json, benchmark::jsonOf(rows));
         }
-        progress.finish();
         fmt::print("\n{}", benchmark::tableOf(rows));
         return 0;
     });
