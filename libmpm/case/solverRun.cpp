@@ -1,12 +1,12 @@
 #include "case/solverRun.hpp"
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
 #include "output/stateFile.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <omp.h>
@@ -15,11 +15,6 @@ namespace mpm::cases
 {
 namespace
 {
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
 {
     const auto place =
@@ -170,6 +165,7 @@ void SolverRun::openOutput()
     state_.provenance["instructionSet"] = instructionSet();
     state_.provenance["dictionaries"] = scene_.dictionaries;
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
+    profile_.beginSteps(stepper_->times());
 }
 
 stepping::StabilityLimit SolverRun::stabilityLimit() const
@@ -190,7 +186,7 @@ double SolverRun::stepSize() const
 void SolverRun::step()
 {
     timeBefore_ = state_.time;
-    const double begin = now();
+    const Clock clock(stepSeconds_);
     if (runTime_->adjustable() && stepping::limitFollowsMass(scene_.scene, shapeHasDomain(scene_.shape)))
         limit_ = stabilityLimit();
     if (recorder_)
@@ -207,8 +203,7 @@ void SolverRun::step()
     }
     if (recorder_)
         recorder_->after(state_);
-    seconds_ += now() - begin;
-    particleSteps_ += double(state_.particles.size());
+    profile_.countStep(state_.particles.size());
     if (state_.ledger.kineticEnergy > peakKinetic_)
     {
         peakKinetic_ = state_.ledger.kineticEnergy;
@@ -218,7 +213,6 @@ void SolverRun::step()
 
 void SolverRun::writeIfDue()
 {
-    const double begin = now();
     const bool last = done();
     if (state_.step % runTime_->historyInterval() == 0 || last)
         writeRow();
@@ -227,11 +221,11 @@ void SolverRun::writeIfDue()
     if (progress_->due(state_.time))
         progress_->update(state_.time, fmt::format("t {:.4g} s  dt {:.3g} s  {} particles", state_.time, state_.deltaT,
                                                    state_.particles.size()));
-    outputSeconds_ += now() - begin;
 }
 
 void SolverRun::writeRow()
 {
+    const Clock clock(profile_.history);
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
@@ -239,6 +233,7 @@ void SolverRun::writeRow()
 
 void SolverRun::writeState()
 {
+    const Clock clock(profile_.output);
     const auto name = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
     output::writeState(folder_.timePath(name), state_);
     lastStored_ = name;
@@ -284,16 +279,8 @@ void SolverRun::summary()
     const Index steps = state_.step - firstStep_;
     const char* unit = state_.particles.dim == 2 ? "kJ/m" : "kJ";
     fmt::print("\nDone: {} steps to {:g} s in {} ({} of it output)\n", steps, state_.time,
-               formatDuration(seconds_ + outputSeconds_), formatDuration(outputSeconds_));
-    line("speed", fmt::format("{:.1f} ns per particle and step", 1e9 * seconds_ / std::max(1.0, particleSteps_)));
-    const auto& p = stepper_->times();
-    const double all = p.toGrid + p.nodal + p.toParticles + p.constitutive + p.sort + p.split;
-    if (all > 0)
-        line("spent on",
-             fmt::format("to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, strain and law {:.0f} %, sort "
-                         "{:.0f} %, split {:.0f} %",
-                         100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
-                         100 * p.constitutive / all, 100 * p.sort / all, 100 * p.split / all));
+               formatDuration(profile_.elapsed()), formatDuration(profile_.history + profile_.output));
+    line("speed", fmt::format("{:.1f} ns per particle and step", profile_.nsPerParticleStep(stepSeconds_)));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
     std::string extent;
     for (int a = 0; a < state_.particles.dim; ++a)
@@ -311,5 +298,8 @@ void SolverRun::summary()
          fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
     warnings();
     line("last time", lastStored_);
+    fmt::print("\n{}", profile_.text(stepper_->times(), 2));
+    if (options_.has("profile"))
+        profile_.write(folder_.postProcessing() / "profile.csv", stepper_->times());
 }
 } // namespace mpm::cases

@@ -7,6 +7,7 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/readScene.hpp"
+#include "case/runProfile.hpp"
 #include "case/runTime.hpp"
 #include "output/csvSeries.hpp"
 #include "output/paraviewSeries.hpp"
@@ -34,7 +35,7 @@ class SolverRun
     void step();
     /// History rows, states, the ParaView series and progress, as far as they are due.
     void writeIfDue();
-    /// What happened, what it cost, what should be looked at.
+    /// What happened, what it cost, what should be looked at. Option -profile: postProcessing/profile.csv.
     void summary();
 
   private:
@@ -46,6 +47,7 @@ class SolverRun
     void writeState();
     void warnings() const;
 
+    RunProfile profile_; ///< first: its time begins with the run's
     const CaseDirectory& folder_;
     const Options& options_;
     std::optional<RunTime> runTime_;
@@ -60,8 +62,8 @@ class SolverRun
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     output::ParaviewSeries series_;
     std::vector<std::string> written_;
-    double timeBefore_ = 0, storedTime_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
-    double seconds_ = 0, outputSeconds_ = 0;
+    double timeBefore_ = 0, storedTime_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double stepSeconds_ = 0;
     Index firstStep_ = 0;
 };
 } // namespace mpm::cases

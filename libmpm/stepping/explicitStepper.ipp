@@ -208,7 +208,7 @@ void ExplicitStepper<dim, Shape>::particleToGrid()
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::gridToParticle(double dt, const Half& half)
 {
-    Clock clock(half.strain ? times_.constitutive : times_.toParticles);
+    Clock clock(half.strain ? times_.law : times_.toParticles);
     auto& p = state_.particles;
     const int slabs = int(grid_.slabs.size());
 #pragma omp parallel for schedule(dynamic, 1)

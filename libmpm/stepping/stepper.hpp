@@ -64,7 +64,7 @@ struct StepReport
 /// Seconds spent in the parts of the step since the start.
 struct PassTimes
 {
-    double toGrid = 0, nodal = 0, toParticles = 0, constitutive = 0, sort = 0, split = 0;
+    double weights = 0, toGrid = 0, nodal = 0, toParticles = 0, law = 0, sort = 0, split = 0;
 };
 
 class Stepper
