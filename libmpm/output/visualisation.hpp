@@ -14,9 +14,6 @@ namespace mpm::output
 inline constexpr std::array<std::array<int, 3>, 8> cornerSigns = {
     {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 
-/// Corner c of particle i's deformed domain [m].
-Vector3 domainCorner(const state::Particles& particles, Index i, int c);
-
 /// "sigma_xx", ...
 std::string stressComponentName(int component);
 /// "smoothedStress_xx", ...; the field's own name if it has one column.
