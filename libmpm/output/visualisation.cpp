@@ -67,21 +67,6 @@ std::vector<std::string> derivedComponentNames(const std::string& field, const s
     return names;
 }
 
-void writeDerivedVisualisation(Hdf5File& file, const std::string& field, const std::vector<std::string>& components,
-                               const std::vector<double>& rows, const std::string& unit)
-{
-    const auto names = derivedComponentNames(field, components);
-    const std::size_t width = names.size();
-    for (std::size_t k = 0; k < width; ++k)
-    {
-        std::vector<float> column;
-        for (std::size_t i = k; i < rows.size(); i += width)
-            column.push_back(float(rows[i]));
-        file.remove("/visualisation/derived/" + names[k]);
-        file.write<float>("/visualisation/derived/" + names[k], column, {Index(column.size())}, unit);
-    }
-}
-
 void writeVisualisation(Hdf5File& file, const state::Particles& p)
 {
     const Index n = p.size();

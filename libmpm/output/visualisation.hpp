@@ -20,8 +20,4 @@ std::string stressComponentName(int component);
 std::vector<std::string> derivedComponentNames(const std::string& field, const std::vector<std::string>& components);
 
 void writeVisualisation(Hdf5File& file, const state::Particles& particles);
-
-/// Columns of a derived field, given row by row; replaces those of the same name.
-void writeDerivedVisualisation(Hdf5File& file, const std::string& field, const std::vector<std::string>& components,
-                               const std::vector<double>& rows, const std::string& unit);
 } // namespace mpm::output
