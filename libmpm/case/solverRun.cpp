@@ -7,6 +7,7 @@
 #include "case/strainRecorder.hpp"
 #include "output/stateFile.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <omp.h>
@@ -198,6 +199,7 @@ void SolverRun::step()
     catch (const StepError& error)
     {
         progress_.reset();
+        finishWriting();
         throw StepError(
             fmt::format("{}\n    the last stored time is {}; nothing after it was kept", error.what(), lastStored_));
     }
@@ -213,6 +215,8 @@ void SolverRun::step()
 
 void SolverRun::writeIfDue()
 {
+    if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        finishWriting(); // a failure is told at once
     const bool last = done();
     if (state_.step % runTime_->historyInterval() == 0 || last)
         writeRow();
@@ -234,16 +238,28 @@ void SolverRun::writeRow()
 void SolverRun::writeState()
 {
     const Clock clock(profile_.output);
-    const auto name = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
-    output::writeState(folder_.timePath(name), state_);
-    lastStored_ = name;
+    finishWriting();
+    writingName_ = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
     storedTime_ = state_.time;
-    written_.push_back(name);
-    folder_.purge(written_, runTime_->purgeWrite());
-    std::vector<std::string> names;
-    for (const auto& time : folder_.times())
-        names.push_back(time.name);
-    series_.write(names);
+    const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
+    writing_ = std::async(std::launch::async, [this, pending] {
+        pending->commit();
+        written_.push_back(writingName_);
+        folder_.purge(written_, runTime_->purgeWrite());
+        std::vector<std::string> names;
+        for (const auto& time : folder_.times())
+            names.push_back(time.name);
+        series_.write(names);
+    });
+}
+
+/// Throws what went wrong meanwhile.
+void SolverRun::finishWriting()
+{
+    if (!writing_.valid())
+        return;
+    writing_.get();
+    lastStored_ = writingName_;
 }
 
 void SolverRun::warnings() const
@@ -271,6 +287,10 @@ void SolverRun::warnings() const
 
 void SolverRun::summary()
 {
+    {
+        const Clock clock(profile_.output);
+        finishWriting();
+    }
     progress_->finish();
     const auto t = stepping::totals(state_, scene_.scene.materials);
     const auto& l = state_.ledger;

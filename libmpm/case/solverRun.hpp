@@ -14,6 +14,7 @@
 #include "stepping/energyBudget.hpp"
 #include "stepping/timeStep.hpp"
 
+#include <future>
 #include <optional>
 
 namespace mpm::cases
@@ -33,7 +34,8 @@ class SolverRun
     void openOutput();
     bool done() const { return runTime_->done(state_.time); }
     void step();
-    /// History rows, states, the ParaView series and progress, as far as they are due.
+    /// History rows, states, the ParaView series and progress, as far as they are due. A state is copied to its file
+    /// here; that the file has reached the disk and takes its place is waited for at the next one, or at the end.
     void writeIfDue();
     /// What happened, what it cost, what should be looked at. Option -profile: postProcessing/profile.csv.
     void summary();
@@ -45,6 +47,7 @@ class SolverRun
     double stepSize() const;
     void writeRow();
     void writeState();
+    void finishWriting();
     void warnings() const;
 
     RunProfile profile_; ///< first: its time begins with the run's
@@ -62,6 +65,8 @@ class SolverRun
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     output::ParaviewSeries series_;
     std::vector<std::string> written_;
+    std::future<void> writing_; ///< the disk takes the state `writingName_` while steps go on
+    std::string writingName_;
     double timeBefore_ = 0, storedTime_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double stepSeconds_ = 0;
     Index firstStep_ = 0;

@@ -263,25 +263,45 @@ void writeAll(const std::filesystem::path& name, const state::State& state)
 }
 } // namespace
 
-void writeState(const std::filesystem::path& timeFolder, const state::State& state)
+PendingState::PendingState(const std::filesystem::path& timeFolder, const state::State& state)
+    : file_(timeFolder / stateFileName), folderIsOurs_(!std::filesystem::exists(timeFolder))
 {
-    const auto file = timeFolder / stateFileName;
-    requireValid(state, file.string());
-    const bool folderIsOurs = !std::filesystem::exists(timeFolder);
+    requireValid(state, file_.string());
     makeFolder(timeFolder);
     try
     {
-        writeAll(temporaryName(file), state);
-        commitTemporary(file);
+        writeAll(temporaryName(file_), state);
     }
     catch (const InputError&)
     {
-        std::error_code ignored;
-        std::filesystem::remove(temporaryName(file), ignored);
-        if (folderIsOurs)
-            std::filesystem::remove(timeFolder, ignored); // only if empty
+        remove();
         throw;
     }
+}
+
+PendingState::~PendingState()
+{
+    if (!committed_)
+        remove();
+}
+
+void PendingState::commit()
+{
+    commitTemporary(file_);
+    committed_ = true;
+}
+
+void PendingState::remove() const
+{
+    std::error_code ignored;
+    std::filesystem::remove(temporaryName(file_), ignored);
+    if (folderIsOurs_)
+        std::filesystem::remove(file_.parent_path(), ignored); // only if empty
+}
+
+void writeState(const std::filesystem::path& timeFolder, const state::State& state)
+{
+    PendingState(timeFolder, state).commit();
 }
 
 state::State readState(const std::filesystem::path& name)
