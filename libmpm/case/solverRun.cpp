@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
@@ -10,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <omp.h>
 
 namespace mpm::cases
 {
@@ -53,7 +53,6 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
     scene_ = readScene(folder, state_);
     scene_.dictionaries += "// system/controlDict\n" + control.text();
-    omp_set_num_threads(options.threadCount());
     stepper_ = makeStepper(scene_.shape, state_, scene_.scene);
     stepping::beginLedger(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
@@ -302,6 +301,9 @@ void SolverRun::summary()
                formatDuration(profile_.elapsed()), formatDuration(profile_.history + profile_.output));
     line("speed", fmt::format("{:.1f} ns per particle and step", profile_.nsPerParticleStep(stepSeconds_)));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
+    if (const double memory = peakMemory(); memory > 0)
+        line("memory", fmt::format("{} at most, {:.0f} bytes a particle", formatBytes(memory),
+                                   memory / double(state_.particles.size())));
     std::string extent;
     for (int a = 0; a < state_.particles.dim; ++a)
         extent += fmt::format("{} {:.3f} .. {:.3f} m{}", axisNames[a], t.extents.low[a], t.extents.high[a],

@@ -89,7 +89,7 @@ class Checker
     void particles() const
     {
         bool good = true;
-#pragma omp parallel for schedule(static) reduction(&& : good)
+#pragma omp parallel for schedule(static) reduction(&& : good) if (p_.size() > 100000)
         for (Index first = 0; first < p_.size(); first += lanes)
             good = good && (p_.dim == 2 ? chunkIsGood<2>(first) : chunkIsGood<3>(first));
         if (!good)
