@@ -22,25 +22,22 @@ Overburden::Overburden(const state::State& state, const Vector3& gravity)
     area_ = dim_ == 2 ? width_ : width_ * width_;
     const auto n = std::size_t(state.particles.size());
     lastColumn_ = columns_.end();
-    std::vector<Share> shares; // in the order of the particles
-    for (auto* column : {&height_, &ownMass_})
-        column->reserve(n + n / 4);
+    height_.reserve(n);
     ownBegin_.reserve(n + 1);
     ownColumn_.reserve(n + n / 4);
-    shares.reserve(n + n / 4);
+    ownMass_.reserve(n + n / 4);
     for (Index p = 0; p < state.particles.size(); ++p)
     {
-        addParticle(state, p);
+        makeShares(state, p);
         for (const auto& [cell, share] : made_)
         {
             ownColumn_.push_back(columnOf(cell));
             ownMass_.push_back(share.mass);
-            shares.push_back(share);
         }
         ownBegin_.push_back(ownColumn_.size());
         height_.push_back(sign_ * state.particles.x[std::size_t(up_)][std::size_t(p)]);
     }
-    sortShares(shares);
+    sortShares(state);
 }
 
 bool Overburden::defined(const Vector3& gravity, int dim)
@@ -50,7 +47,7 @@ bool Overburden::defined(const Vector3& gravity, int dim)
            std::count_if(gravity.begin(), gravity.begin() + dim, isZero) == dim - 1;
 }
 
-void Overburden::addParticle(const state::State& state, Index particle)
+void Overburden::makeShares(const state::State& state, Index particle)
 {
     const auto& p = state.particles;
     const auto i = std::size_t(particle);
@@ -117,19 +114,25 @@ std::int32_t Overburden::columnOf(const Cell& cell)
     return lastColumn_->second;
 }
 
-void Overburden::sortShares(const std::vector<Share>& shares)
+/// Makes the shares again instead of keeping them twice.
+void Overburden::sortShares(const state::State& state)
 {
     columnBegin_.assign(columns_.size() + 1, 0);
     for (const auto column : ownColumn_)
         ++columnBegin_[std::size_t(column) + 1];
     for (std::size_t c = 0; c < columns_.size(); ++c)
         columnBegin_[c + 1] += columnBegin_[c];
-    shares_.resize(shares.size());
-    massBefore_.resize(shares.size());
+    shares_.resize(ownColumn_.size());
+    massBefore_.resize(ownColumn_.size());
     thickest_.assign(columns_.size(), 0);
     auto next = columnBegin_;
-    for (std::size_t s = 0; s < shares.size(); ++s)
-        shares_[next[std::size_t(ownColumn_[s])]++] = shares[s];
+    auto column = ownColumn_.begin();
+    for (Index p = 0; p < state.particles.size(); ++p)
+    {
+        makeShares(state, p);
+        for (const auto& [cell, share] : made_)
+            shares_[next[std::size_t(*column++)]++] = share;
+    }
     for (std::size_t c = 0; c < columns_.size(); ++c)
     {
         const auto from = std::ptrdiff_t(columnBegin_[c]), to = std::ptrdiff_t(columnBegin_[c + 1]);

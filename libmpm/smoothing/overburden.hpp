@@ -14,7 +14,7 @@
 /// Gravity must point along one axis; "above" is against it. Verified in tests/unit/smoothing.cpp.
 ///
 /// Time grows with particles times the logarithm of how many stand in a column: heights are found by bisection, the
-/// mass above comes from sums made once. Memory: 50 to 60 bytes a particle.
+/// mass above comes from sums made once. Memory: about 70 bytes a particle.
 #include "state/state.hpp"
 
 #include <map>
@@ -42,10 +42,10 @@ class Overburden
         double mass;        ///< [kg]
     };
 
-    void addParticle(const state::State& state, Index p);
+    void makeShares(const state::State& state, Index p);
     void addPart(const Cell& cell, double height, double thickness, double mass);
     std::int32_t columnOf(const Cell& cell);
-    void sortShares(const std::vector<Share>& shares);
+    void sortShares(const state::State& state);
     double massAbove(std::int32_t column, double height) const;
     double stress(double massAbove) const;
 
@@ -67,6 +67,6 @@ class Overburden
     std::vector<double> ownMass_;
     std::vector<double> height_; ///< of particle centres
 
-    std::vector<std::pair<Cell, Share>> made_; ///< shares of the particle under way
+    std::vector<std::pair<Cell, Share>> made_; ///< shares of one particle
 };
 } // namespace mpm::smoothing
