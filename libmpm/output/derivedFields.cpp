@@ -109,15 +109,10 @@ void writeNodal(Hdf5File& file, const NodalFields& nodal, int dim)
 void rewrite(const fs::path& name, const state::State& state, const std::vector<DerivedField>& fields,
              const NodalFields* nodal)
 {
-    const fs::path temporary = temporaryName(name);
-    std::error_code error;
-    fs::copy_file(name, temporary, fs::copy_options::overwrite_existing, error);
-    if (error)
-        throw InputError({name.string()},
-                         fmt::format("cannot be copied to {}: {}", temporary.string(), error.message()));
+    copyToTemporary(name);
     try
     {
-        Hdf5File file = Hdf5File::edit(temporary);
+        Hdf5File file = Hdf5File::edit(temporaryName(name));
         const auto order = orderInFile(file, state.particles);
         const Index n = state.particles.size();
         for (const auto& field : fields)
@@ -132,7 +127,8 @@ void rewrite(const fs::path& name, const state::State& state, const std::vector<
     }
     catch (const InputError&)
     {
-        fs::remove(temporary, error);
+        std::error_code ignored;
+        fs::remove(temporaryName(name), ignored);
         throw;
     }
 }

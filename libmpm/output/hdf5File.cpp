@@ -16,6 +16,7 @@ namespace
 static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File keeps HDF5's handles as int64");
 
 constexpr int maxRank = 4;
+constexpr Index blocksAhead = 16; ///< blocks of a dataset between looks at the disk
 
 /// Owns one HDF5 handle of any kind.
 class Handle
@@ -265,6 +266,7 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
                              H5Dclose);
         if (!dataset.good() || (any && H5Dwrite(dataset, inMemory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail(object, "cannot be written (disk full, or already there)");
+        followDisk();
         return;
     }
     const Handle made(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), onDisk, space, H5P_DEFAULT,
@@ -272,6 +274,13 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
                       H5Aclose);
     if (!made.good() || H5Awrite(made, inMemory, values) < 0)
         fail(object, attribute, "cannot be written");
+}
+
+void Hdf5File::followDisk()
+{
+    void* descriptor = nullptr; // of the file driver for plain files, which is the default
+    if (H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
+        pace_.follow(*static_cast<const int*>(descriptor));
 }
 
 void Hdf5File::storeBlocks(const std::string& object, Element element, const Shape& shape, Index rows,
@@ -289,6 +298,8 @@ void Hdf5File::storeBlocks(const std::string& object, Element element, const Sha
         fill(first, n);
         const Handle part = selectRows(space, shape, first, n);
         good = H5Dwrite(dataset, inMemory, part, space, H5P_DEFAULT, block) >= 0;
+        if (first / rows % blocksAhead == blocksAhead - 1)
+            followDisk();
     }
     if (!good)
         fail(object, "cannot be written (disk full, or already there)");

@@ -19,6 +19,7 @@
 ///     auto again = Hdf5File::open("state.h5");
 ///     auto m = again.read<double>("/particles/mass", {-1});
 #include "base/types.hpp"
+#include "output/diskPace.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -125,6 +126,7 @@ class Hdf5File
     // hdf5File.cpp: bytes and handles. An empty attribute name means the dataset itself.
     void store(const std::string& object, const std::string& attribute, Element element, const Shape& shape,
                const void* values);
+    void followDisk();
     using BlockWork = std::function<void(Index first, Index rows)>;
     /// A dataset in blocks of `rows` rows; fill(first, rows) leaves the next block in `block`.
     void storeBlocks(const std::string& object, Element element, const Shape& shape, Index rows, const void* block,
@@ -149,5 +151,6 @@ class Hdf5File
     std::filesystem::path path_;
     std::int64_t file_ = -1;              ///< HDF5's handle
     mutable std::uint64_t allowance_ = 0; ///< bytes that may still be read
+    DiskPace pace_;
 };
 } // namespace mpm::output
