@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <omp.h>
 
 namespace mpm::cases
 {
@@ -186,7 +187,7 @@ int run(const std::vector<std::string>& arguments, const ApplicationInfo& info,
         return 0;
     }
     const Options options = toOptions(given, info);
-    options.threadCount(); // a bad OMP_NUM_THREADS is told before any work
+    omp_set_num_threads(options.threadCount()); // a bad OMP_NUM_THREADS is told before any work
     if (info.usesCase)
         checkCaseFolder(options.caseFolder);
     return body(options);

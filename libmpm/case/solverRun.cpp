@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
 #include "case/strainRecorder.hpp"
@@ -9,7 +10,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <omp.h>
 
 namespace mpm::cases
 {
@@ -52,7 +52,6 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
     scene_ = readScene(folder, state_);
     scene_.dictionaries += "// system/controlDict\n" + control.text();
-    omp_set_num_threads(options.threadCount());
     stepper_ = makeStepper(scene_.shape, state_, scene_.scene);
     stepping::beginLedger(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
@@ -165,6 +164,7 @@ void SolverRun::openOutput()
     state_.provenance["instructionSet"] = instructionSet();
     state_.provenance["dictionaries"] = scene_.dictionaries;
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
+    profile_.beginSteps(stepper_->times());
 }
 
 stepping::StabilityLimit SolverRun::stabilityLimit() const
@@ -185,7 +185,7 @@ double SolverRun::stepSize() const
 void SolverRun::step()
 {
     timeBefore_ = state_.time;
-    const double begin = now();
+    const Clock clock(stepSeconds_);
     if (runTime_->adjustable() && stepping::limitFollowsMass(scene_.scene, shapeHasDomain(scene_.shape)))
         limit_ = stabilityLimit();
     if (recorder_)
@@ -197,13 +197,13 @@ void SolverRun::step()
     catch (const StepError& error)
     {
         progress_.reset();
+        finishWriting();
         throw StepError(
             fmt::format("{}\n    the last stored time is {}; nothing after it was kept", error.what(), lastStored_));
     }
     if (recorder_)
         recorder_->after(state_);
-    seconds_ += now() - begin;
-    particleSteps_ += double(state_.particles.size());
+    profile_.countStep(state_.particles.size());
     if (state_.ledger.kineticEnergy > peakKinetic_)
     {
         peakKinetic_ = state_.ledger.kineticEnergy;
@@ -213,7 +213,8 @@ void SolverRun::step()
 
 void SolverRun::writeIfDue()
 {
-    const double begin = now();
+    if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        finishWriting(); // a failure is told at once
     const bool last = done();
     if (state_.step % runTime_->historyInterval() == 0 || last)
         writeRow();
@@ -222,11 +223,11 @@ void SolverRun::writeIfDue()
     if (progress_->due(state_.time))
         progress_->update(state_.time, fmt::format("t {:.4g} s  dt {:.3g} s  {} particles", state_.time, state_.deltaT,
                                                    state_.particles.size()));
-    outputSeconds_ += now() - begin;
 }
 
 void SolverRun::writeRow()
 {
+    const Clock clock(profile_.history);
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
@@ -234,16 +235,29 @@ void SolverRun::writeRow()
 
 void SolverRun::writeState()
 {
-    const auto name = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
-    output::writeState(folder_.timePath(name), state_);
-    lastStored_ = name;
+    const Clock clock(profile_.output);
+    finishWriting();
+    writingName_ = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
     storedTime_ = state_.time;
-    written_.push_back(name);
-    folder_.purge(written_, runTime_->purgeWrite());
-    std::vector<std::string> names;
-    for (const auto& time : folder_.times())
-        names.push_back(time.name);
-    series_.write(names);
+    const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
+    writing_ = std::async(std::launch::async, [this, pending] {
+        pending->commit();
+        written_.push_back(writingName_);
+        folder_.purge(written_, runTime_->purgeWrite());
+        std::vector<std::string> names;
+        for (const auto& time : folder_.times())
+            names.push_back(time.name);
+        series_.write(names);
+    });
+}
+
+/// Throws what went wrong meanwhile.
+void SolverRun::finishWriting()
+{
+    if (!writing_.valid())
+        return;
+    writing_.get();
+    lastStored_ = writingName_;
 }
 
 void SolverRun::warnings() const
@@ -271,6 +285,10 @@ void SolverRun::warnings() const
 
 void SolverRun::summary()
 {
+    {
+        const Clock clock(profile_.output);
+        finishWriting();
+    }
     progress_->finish();
     const auto t = stepping::totals(state_, scene_.scene.materials);
     const auto& l = state_.ledger;
@@ -279,17 +297,12 @@ void SolverRun::summary()
     const Index steps = state_.step - firstStep_;
     const char* unit = state_.particles.dim == 2 ? "kJ/m" : "kJ";
     fmt::print("\nDone: {} steps to {:g} s in {} ({} of it output)\n", steps, state_.time,
-               formatDuration(seconds_ + outputSeconds_), formatDuration(outputSeconds_));
-    line("speed", fmt::format("{:.1f} ns per particle and step", 1e9 * seconds_ / std::max(1.0, particleSteps_)));
-    const auto p = stepper_->times();
-    const double all = p.weights + p.toGrid + p.nodal + p.toParticles + p.law + p.sort + p.split;
-    if (all > 0)
-        line("spent on",
-             fmt::format("weights {:.0f} %, to grid {:.0f} %, nodes {:.0f} %, to particles {:.0f} %, law {:.0f} %, sort "
-                         "{:.0f} %, split {:.0f} %",
-                         100 * p.weights / all, 100 * p.toGrid / all, 100 * p.nodal / all, 100 * p.toParticles / all,
-                         100 * p.law / all, 100 * p.sort / all, 100 * p.split / all));
+               formatDuration(profile_.elapsed()), formatDuration(profile_.history + profile_.output));
+    line("speed", fmt::format("{:.1f} ns per particle and step", profile_.nsPerParticleStep(stepSeconds_)));
     line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
+    if (const double memory = peakMemory(); memory > 0)
+        line("memory", fmt::format("{} at most, {:.0f} bytes a particle", formatBytes(memory),
+                                   memory / double(state_.particles.size())));
     std::string extent;
     for (int a = 0; a < state_.particles.dim; ++a)
         extent += fmt::format("{} {:.3f} .. {:.3f} m{}", axisNames[a], t.extents.low[a], t.extents.high[a],
@@ -306,5 +319,8 @@ void SolverRun::summary()
          fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
     warnings();
     line("last time", lastStored_);
+    fmt::print("\n{}", profile_.text(stepper_->times(), 2));
+    if (options_.has("profile"))
+        profile_.write(folder_.postProcessing() / "profile.csv", stepper_->times());
 }
 } // namespace mpm::cases

@@ -7,12 +7,14 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/readScene.hpp"
+#include "case/runProfile.hpp"
 #include "case/runTime.hpp"
 #include "output/csvSeries.hpp"
 #include "output/paraviewSeries.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/timeStep.hpp"
 
+#include <future>
 #include <optional>
 
 namespace mpm::cases
@@ -32,9 +34,10 @@ class SolverRun
     void openOutput();
     bool done() const { return runTime_->done(state_.time); }
     void step();
-    /// History rows, states, the ParaView series and progress, as far as they are due.
+    /// History rows, states, the ParaView series and progress, as far as they are due. A state is copied to its file
+    /// here; that the file has reached the disk and takes its place is waited for at the next one, or at the end.
     void writeIfDue();
-    /// What happened, what it cost, what should be looked at.
+    /// What happened, what it cost, what should be looked at. Option -profile: postProcessing/profile.csv.
     void summary();
 
   private:
@@ -44,8 +47,10 @@ class SolverRun
     double stepSize() const;
     void writeRow();
     void writeState();
+    void finishWriting();
     void warnings() const;
 
+    RunProfile profile_; ///< first: its time begins with the run's
     const CaseDirectory& folder_;
     const Options& options_;
     std::optional<RunTime> runTime_;
@@ -60,8 +65,10 @@ class SolverRun
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     output::ParaviewSeries series_;
     std::vector<std::string> written_;
-    double timeBefore_ = 0, storedTime_ = 0, particleSteps_ = 0, peakKinetic_ = 0, peakTime_ = 0;
-    double seconds_ = 0, outputSeconds_ = 0;
+    std::future<void> writing_; ///< the disk takes the state `writingName_` while steps go on
+    std::string writingName_;
+    double timeBefore_ = 0, storedTime_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double stepSeconds_ = 0;
     Index firstStep_ = 0;
 };
 } // namespace mpm::cases

@@ -14,28 +14,37 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// row[i]: the file's row of the state's particle i.
-std::vector<Index> rowsInFile(const Hdf5File& file, const state::Particles& p)
+std::size_t rowIn(const std::vector<Index>& order, Index row)
 {
-    const auto ids = file.read<std::int64_t>("/particles/id", {-1});
-    std::vector<std::pair<std::int64_t, Index>> table;
-    for (std::size_t i = 0; i < ids.size(); ++i)
-        table.emplace_back(ids[i], Index(i));
-    std::sort(table.begin(), table.end());
-    std::vector<Index> rows;
-    for (Index i = 0; i < p.size() && p.size() == Index(ids.size()); ++i)
-    {
-        const auto id = p.id[std::size_t(i)];
-        const auto found = std::lower_bound(table.begin(), table.end(), std::make_pair(id, Index(0)));
-        if (found != table.end() && found->first == id)
-            rows.push_back(found->second);
-    }
-    if (rows.size() != ids.size() || p.size() != Index(ids.size()))
-        file.fail("/particles/id", "the file holds other particles than the state its derived fields belong to");
-    return rows;
+    return std::size_t(order.empty() ? row : order[std::size_t(row)]);
 }
 
-void writeField(Hdf5File& file, const std::string& group, const DerivedField& field, const std::vector<Index>* rows,
+/// The file's particles against the state's: order[row] is the state's particle in a row of the file. Empty if both
+/// stand in the same order, as in a file just read.
+std::vector<Index> orderInFile(const Hdf5File& file, const state::Particles& p)
+{
+    const auto ids = file.read<std::int64_t>("/particles/id", {-1});
+    const auto own = p.id.begin();
+    if (std::equal(ids.begin(), ids.end(), own, own + p.size()))
+        return {};
+    std::vector<std::pair<std::int64_t, Index>> inFile, inState;
+    for (std::size_t row = 0; row < ids.size(); ++row)
+        inFile.emplace_back(ids[row], Index(row));
+    for (Index i = 0; i < p.size(); ++i)
+        inState.emplace_back(own[i], i);
+    std::sort(inFile.begin(), inFile.end());
+    std::sort(inState.begin(), inState.end());
+    const auto sameId = [](const auto& a, const auto& b) { return a.first == b.first; };
+    if (!std::equal(inFile.begin(), inFile.end(), inState.begin(), inState.end(), sameId))
+        file.fail("/particles/id", "the file holds other particles than the state its derived fields belong to");
+    std::vector<Index> order(ids.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+        order[std::size_t(inFile[k].second)] = inState[k].second;
+    return order;
+}
+
+/// Row r of the file holds row order[r] of the columns; an empty order means r itself.
+void writeField(Hdf5File& file, const std::string& group, const DerivedField& field, const std::vector<Index>& order,
                 Index n)
 {
     const std::string name = group + "/" + field.name;
@@ -43,36 +52,45 @@ void writeField(Hdf5File& file, const std::string& group, const DerivedField& fi
     if (field.name.empty() || field.name.find('/') != std::string::npos || width == 0 ||
         width != Index(field.components.size()))
         file.fail(name, "a derived field needs a plain name and one component name a column");
-    std::vector<double> values(std::size_t(n * width));
     for (Index k = 0; k < width; ++k)
-    {
-        const auto& column = field.columns[std::size_t(k)];
-        if (Index(column.size()) != n)
-            file.fail(name, fmt::format("column {} has {} rows, {} expected", k, column.size(), n));
-        for (Index i = 0; i < n; ++i)
-            values[std::size_t((rows ? (*rows)[std::size_t(i)] : i) * width + k)] = column[std::size_t(i)];
-    }
+        if (const auto rows = Index(field.columns[std::size_t(k)].size()); rows != n)
+            file.fail(name, fmt::format("column {} has {} rows, {} expected", k, rows, n));
     file.remove(name);
-    file.write<double>(name, values, {n, width}, field.unit);
+    file.writeRows<double>(name, {n, width}, field.unit, [&](Index first, Index rows, double* out) {
+        for (Index k = 0; k < width; ++k)
+            for (Index i = 0; i < rows; ++i)
+                out[i * width + k] = field.columns[std::size_t(k)][rowIn(order, first + i)];
+    });
     file.setAttribute(name, "components", field.components);
-    if (rows)
-        writeDerivedVisualisation(file, field.name, field.components, values, field.unit);
+}
+
+/// The columns again one by one, as float32.
+void writePicture(Hdf5File& file, const DerivedField& field, const std::vector<Index>& order, Index n)
+{
+    const auto names = derivedComponentNames(field.name, field.components);
+    for (std::size_t k = 0; k < names.size(); ++k)
+    {
+        const std::string name = "/visualisation/derived/" + names[k];
+        file.remove(name);
+        file.writeRows<float>(name, {n}, field.unit, [&](Index first, Index rows, float* out) {
+            for (Index i = 0; i < rows; ++i)
+                out[i] = float(field.columns[k][rowIn(order, first + i)]);
+        });
+    }
 }
 
 DerivedField readField(const Hdf5File& file, const std::string& group, const std::string& plainName,
-                       const std::vector<Index>* rows, Index n)
+                       const std::vector<Index>& order, Index n)
 {
     const std::string name = group + "/" + plainName;
     DerivedField field{plainName, file.textAttribute(name, "unit"), file.textsAttribute(name, "components"), {}};
     const Index width = Index(field.components.size());
-    const auto values = file.read<double>(name, {n, width});
-    for (Index k = 0; k < width; ++k)
-    {
-        std::vector<double> column(static_cast<std::size_t>(n));
-        for (Index i = 0; i < n; ++i)
-            column[std::size_t(i)] = values[std::size_t((rows ? (*rows)[std::size_t(i)] : i) * width + k)];
-        field.columns.push_back(std::move(column));
-    }
+    field.columns.assign(std::size_t(width), std::vector<double>(std::size_t(n)));
+    file.readRows<double>(name, {n, width}, [&](Index first, Index rows, const double* in) {
+        for (Index k = 0; k < width; ++k)
+            for (Index i = 0; i < rows; ++i)
+                field.columns[std::size_t(k)][rowIn(order, first + i)] = in[i * width + k];
+    });
     return field;
 }
 
@@ -85,24 +103,23 @@ void writeNodal(Hdf5File& file, const NodalFields& nodal, int dim)
     file.remove("/derivedNodal");
     file.write<double>("/derivedNodal/position", position, {n, dim}, "m");
     for (const auto& field : nodal.fields)
-        writeField(file, "/derivedNodal", field, nullptr, n);
+        writeField(file, "/derivedNodal", field, {}, n);
 }
 
 void rewrite(const fs::path& name, const state::State& state, const std::vector<DerivedField>& fields,
              const NodalFields* nodal)
 {
-    const fs::path temporary = temporaryName(name);
-    std::error_code error;
-    fs::copy_file(name, temporary, fs::copy_options::overwrite_existing, error);
-    if (error)
-        throw InputError({name.string()},
-                         fmt::format("cannot be copied to {}: {}", temporary.string(), error.message()));
+    copyToTemporary(name);
     try
     {
-        Hdf5File file = Hdf5File::edit(temporary);
-        const auto rows = rowsInFile(file, state.particles);
+        Hdf5File file = Hdf5File::edit(temporaryName(name));
+        const auto order = orderInFile(file, state.particles);
+        const Index n = state.particles.size();
         for (const auto& field : fields)
-            writeField(file, "/derived", field, &rows, state.particles.size());
+        {
+            writeField(file, "/derived", field, order, n);
+            writePicture(file, field, order, n);
+        }
         if (nodal)
             writeNodal(file, *nodal, state.particles.dim);
         file.close();
@@ -110,7 +127,8 @@ void rewrite(const fs::path& name, const state::State& state, const std::vector<
     }
     catch (const InputError&)
     {
-        fs::remove(temporary, error);
+        std::error_code ignored;
+        fs::remove(temporaryName(name), ignored);
         throw;
     }
 }
@@ -130,10 +148,10 @@ void writeDerived(const fs::path& file, const state::State& state, const std::ve
 std::vector<DerivedField> readDerived(const fs::path& name, const state::State& state)
 {
     const Hdf5File file = Hdf5File::open(name);
-    const auto rows = rowsInFile(file, state.particles);
+    const auto order = orderInFile(file, state.particles);
     std::vector<DerivedField> fields;
     for (const auto& member : file.members("/derived"))
-        fields.push_back(readField(file, "/derived", member, &rows, state.particles.size()));
+        fields.push_back(readField(file, "/derived", member, order, state.particles.size()));
     return fields;
 }
 
@@ -151,7 +169,7 @@ NodalFields readDerivedNodal(const fs::path& name)
         nodal.position.push_back({position[i], position[i + 1], shape[1] == 3 ? position[i + 2] : 0.0});
     for (const auto& member : file.members("/derivedNodal"))
         if (member != "position")
-            nodal.fields.push_back(readField(file, "/derivedNodal", member, nullptr, shape[0]));
+            nodal.fields.push_back(readField(file, "/derivedNodal", member, {}, shape[0]));
     return nodal;
 }
 } // namespace mpm::output

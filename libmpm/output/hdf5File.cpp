@@ -16,6 +16,7 @@ namespace
 static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File keeps HDF5's handles as int64");
 
 constexpr int maxRank = 4;
+constexpr Index blocksAhead = 16; ///< blocks of a dataset between looks at the disk
 
 /// Owns one HDF5 handle of any kind.
 class Handle
@@ -83,6 +84,16 @@ Handle spaceOf(const Shape& shape)
 {
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
     return {dims.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(int(dims.size()), dims.data(), nullptr), H5Sclose};
+}
+
+/// Selects rows first ... first + n - 1 in the space of a dataset; returns the space of such a block in memory.
+Handle selectRows(hid_t space, const Shape& shape, Index first, Index n)
+{
+    std::vector<hsize_t> count(shape.begin(), shape.end()), start(shape.size(), 0);
+    count.front() = hsize_t(n);
+    start.front() = hsize_t(first);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    return {H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose};
 }
 
 /// "/a", "/a/b", ... of "/a/b/c", the whole name last.
@@ -255,6 +266,7 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
                              H5Dclose);
         if (!dataset.good() || (any && H5Dwrite(dataset, inMemory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail(object, "cannot be written (disk full, or already there)");
+        followDisk();
         return;
     }
     const Handle made(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), onDisk, space, H5P_DEFAULT,
@@ -262,6 +274,49 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
                       H5Aclose);
     if (!made.good() || H5Awrite(made, inMemory, values) < 0)
         fail(object, attribute, "cannot be written");
+}
+
+void Hdf5File::followDisk()
+{
+    void* descriptor = nullptr; // of the file driver for plain files, which is the default
+    if (H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
+        pace_.follow(*static_cast<const int*>(descriptor));
+}
+
+void Hdf5File::storeBlocks(const std::string& object, Element element, const Shape& shape, Index rows,
+                           const void* block, const BlockWork& fill)
+{
+    makeGroup(object.substr(0, object.rfind('/')));
+    const Handle space = spaceOf(shape), inMemory = typeOf(element, false);
+    const Handle dataset(
+        H5Dcreate2(file_, object.c_str(), typeOf(element, true), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
+    bool good = dataset.good();
+    for (Index first = 0; good && first < shape.front(); first += rows)
+    {
+        const Index n = std::min(rows, shape.front() - first);
+        fill(first, n);
+        const Handle part = selectRows(space, shape, first, n);
+        good = H5Dwrite(dataset, inMemory, part, space, H5P_DEFAULT, block) >= 0;
+        if (first / rows % blocksAhead == blocksAhead - 1)
+            followDisk();
+    }
+    if (!good)
+        fail(object, "cannot be written (disk full, or already there)");
+}
+
+void Hdf5File::fetchBlocks(const std::string& object, Element element, const Shape& shape, Index rows, void* block,
+                           const BlockWork& take) const
+{
+    const Handle dataset = openDataset(file_, object), space = spaceOf(shape), inMemory = typeOf(element, false);
+    for (Index first = 0; first < shape.front(); first += rows)
+    {
+        const Index n = std::min(rows, shape.front() - first);
+        const Handle part = selectRows(space, shape, first, n);
+        if (H5Dread(dataset, inMemory, part, space, H5P_DEFAULT, block) < 0)
+            fail(object, "cannot be read: truncated or damaged");
+        take(first, n);
+    }
 }
 
 Hdf5File::Found Hdf5File::find(const std::string& object, const std::string& attribute) const

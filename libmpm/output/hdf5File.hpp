@@ -19,8 +19,10 @@
 ///     auto again = Hdf5File::open("state.h5");
 ///     auto m = again.read<double>("/particles/mass", {-1});
 #include "base/types.hpp"
+#include "output/diskPace.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +30,11 @@
 namespace mpm::output
 {
 using Shape = std::vector<Index>;
+
+template <class T>
+using RowFiller = std::function<void(Index first, Index rows, T* out)>;
+template <class T>
+using RowTaker = std::function<void(Index first, Index rows, const T* in)>;
 
 class Hdf5File
 {
@@ -50,6 +57,10 @@ class Hdf5File
     /// A unit becomes the attribute "unit" ("1" for pure numbers); an empty one is left out.
     template <class T>
     void write(const std::string& name, std::span<const T> values, const Shape& shape, const std::string& unit);
+    /// The same block by block, for arrays that stand elsewhere in another order: fill(first, rows, out) puts the rows
+    /// first ... first + rows - 1 one after the other. Memory: one block.
+    template <class T>
+    void writeRows(const std::string& name, const Shape& shape, const std::string& unit, const RowFiller<T>& fill);
     void writeScalar(const std::string& name, double value, const std::string& unit);
     void writeScalar(const std::string& name, Index value, const std::string& unit);
     /// A text as scalar dataset, fixed length, UTF-8 (no zero bytes inside).
@@ -71,6 +82,9 @@ class Hdf5File
     /// The values; an expected extent of -1 allows any.
     template <class T>
     std::vector<T> read(const std::string& name, const Shape& expected) const;
+    /// The same block by block: take(first, rows, in). The whole array is checked before the first block.
+    template <class T>
+    void readRows(const std::string& name, const Shape& expected, const RowTaker<T>& take) const;
     double readReal(const std::string& name) const { return read<double>(name, {}).front(); }
     std::string readText(const std::string& name) const;
     double realAttribute(const std::string& object, const std::string& name) const;
@@ -112,12 +126,21 @@ class Hdf5File
     // hdf5File.cpp: bytes and handles. An empty attribute name means the dataset itself.
     void store(const std::string& object, const std::string& attribute, Element element, const Shape& shape,
                const void* values);
+    void followDisk();
+    using BlockWork = std::function<void(Index first, Index rows)>;
+    /// A dataset in blocks of `rows` rows; fill(first, rows) leaves the next block in `block`.
+    void storeBlocks(const std::string& object, Element element, const Shape& shape, Index rows, const void* block,
+                     const BlockWork& fill);
+    void fetchBlocks(const std::string& object, Element element, const Shape& shape, Index rows, void* block,
+                     const BlockWork& take) const;
     Found find(const std::string& object, const std::string& attribute) const;
     /// Checks that the bytes lie in the file and within the allowance, which they use up; returns the element count.
     std::uint64_t claim(const std::string& object, const std::string& attribute, const Found& found) const;
     void fetch(const std::string& object, const std::string& attribute, Element element, void* values) const;
 
     // hdf5Values.cpp: typed values on top of these.
+    template <class T>
+    Found expect(const std::string& object, const std::string& attribute, const Shape& expected) const;
     template <class T>
     std::vector<T> values(const std::string& object, const std::string& attribute, const Shape& expected) const;
     std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
@@ -128,5 +151,6 @@ class Hdf5File
     std::filesystem::path path_;
     std::int64_t file_ = -1;              ///< HDF5's handle
     mutable std::uint64_t allowance_ = 0; ///< bytes that may still be read
+    DiskPace pace_;
 };
 } // namespace mpm::output

@@ -31,6 +31,16 @@ std::uint64_t product(const Shape& shape)
         count *= std::uint64_t(n);
     return count;
 }
+
+/// Rows of about a quarter of a million bytes, which stay in the cache between HDF5 and us; a multiple of 64, so that
+/// blocks begin where chunks of particles do.
+Index blockRows(const Shape& shape)
+{
+    Index width = 1;
+    for (std::size_t k = 1; k < shape.size(); ++k)
+        width *= shape[k];
+    return std::min(shape.front(), 64 * std::max<Index>(1, 512 / std::max<Index>(1, width)));
+}
 } // namespace
 
 std::string Hdf5File::Element::text() const
@@ -72,6 +82,17 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const S
     if (product(shape) != values.size())
         fail(name, fmt::format("{} values do not fill the shape {}", values.size(), shapeText(shape)));
     store(name, "", elementOf<T>(), shape, values.data());
+    if (!unit.empty())
+        setAttribute(name, "unit", unit);
+}
+
+template <class T>
+void Hdf5File::writeRows(const std::string& name, const Shape& shape, const std::string& unit, const RowFiller<T>& fill)
+{
+    const Index rows = blockRows(shape);
+    std::vector<T> block(shape.front() > 0 ? product(shape) / std::uint64_t(shape.front()) * std::uint64_t(rows) : 0);
+    storeBlocks(name, elementOf<T>(), shape, rows, block.data(),
+                [&](Index first, Index n) { fill(first, n, block.data()); });
     if (!unit.empty())
         setAttribute(name, "unit", unit);
 }
@@ -132,7 +153,7 @@ void Hdf5File::storeTexts(const std::string& object, const std::string& attribut
 // Reading -------------------------------------------------------------------------------------------------------------
 
 template <class T>
-std::vector<T> Hdf5File::values(const std::string& object, const std::string& attribute, const Shape& expected) const
+Hdf5File::Found Hdf5File::expect(const std::string& object, const std::string& attribute, const Shape& expected) const
 {
     const Found found = find(object, attribute);
     if (found.element != elementOf<T>())
@@ -141,6 +162,13 @@ std::vector<T> Hdf5File::values(const std::string& object, const std::string& at
     if (!fits(found.shape, expected))
         fail(object, attribute,
              fmt::format("has the shape {}, {} expected", shapeText(found.shape), shapeText(expected)));
+    return found;
+}
+
+template <class T>
+std::vector<T> Hdf5File::values(const std::string& object, const std::string& attribute, const Shape& expected) const
+{
+    const Found found = expect<T>(object, attribute, expected);
     std::vector<T> values(claim(object, attribute, found));
     if (!values.empty())
         fetch(object, attribute, found.element, values.data());
@@ -173,6 +201,19 @@ template <class T>
 std::vector<T> Hdf5File::read(const std::string& name, const Shape& expected) const
 {
     return values<T>(name, "", expected);
+}
+
+template <class T>
+void Hdf5File::readRows(const std::string& name, const Shape& expected, const RowTaker<T>& take) const
+{
+    const Found found = expect<T>(name, "", expected);
+    const std::uint64_t count = claim(name, "", found);
+    if (count == 0)
+        return;
+    const Index rows = blockRows(found.shape);
+    std::vector<T> block(count / std::uint64_t(found.shape.front()) * std::uint64_t(rows));
+    fetchBlocks(name, found.element, found.shape, rows, block.data(),
+                [&](Index first, Index n) { take(first, n, block.data()); });
 }
 
 Shape Hdf5File::shape(const std::string& name) const
@@ -223,6 +264,14 @@ template void Hdf5File::write<std::int64_t>(const std::string&, std::span<const 
                                             const std::string&);
 template void Hdf5File::write<std::int32_t>(const std::string&, std::span<const std::int32_t>, const Shape&,
                                             const std::string&);
+template void Hdf5File::writeRows<double>(const std::string&, const Shape&, const std::string&,
+                                          const RowFiller<double>&);
+template void Hdf5File::writeRows<float>(const std::string&, const Shape&, const std::string&, const RowFiller<float>&);
+template void Hdf5File::writeRows<std::int32_t>(const std::string&, const Shape&, const std::string&,
+                                                const RowFiller<std::int32_t>&);
+template void Hdf5File::readRows<double>(const std::string&, const Shape&, const RowTaker<double>&) const;
+template void Hdf5File::readRows<std::int64_t>(const std::string&, const Shape&, const RowTaker<std::int64_t>&) const;
+template void Hdf5File::readRows<std::int32_t>(const std::string&, const Shape&, const RowTaker<std::int32_t>&) const;
 template std::vector<double> Hdf5File::read<double>(const std::string&, const Shape&) const;
 template std::vector<float> Hdf5File::read<float>(const std::string&, const Shape&) const;
 template std::vector<std::int64_t> Hdf5File::read<std::int64_t>(const std::string&, const Shape&) const;

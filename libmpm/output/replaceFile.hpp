@@ -14,6 +14,10 @@ std::filesystem::path temporaryName(const std::filesystem::path& file);
 /// file system refuses.
 void commitTemporary(const std::filesystem::path& file);
 
+/// Copies a file to its temporary, to be changed there. Throws InputError and removes the temporary if it cannot.
+/// (std::filesystem::copy_file goes on byte by byte behind the 2 GB that one call of sendfile takes.)
+void copyToTemporary(const std::filesystem::path& file);
+
 /// Writes a whole text file that way.
 void replaceText(const std::filesystem::path& file, const std::string& text);
 

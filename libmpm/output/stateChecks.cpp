@@ -6,15 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace mpm::output
 {
 namespace
 {
+template <int dim>
 double determinant(const state::Particles& p, std::size_t i)
 {
-    const auto F = [&](int row, int column) { return p.F[std::size_t(row * p.dim + column)][i]; };
-    if (p.dim == 2)
+    const auto F = [&](int row, int column) { return p.F[std::size_t(row * dim + column)][i]; };
+    if constexpr (dim == 2)
         return F(0, 0) * F(1, 1) - F(0, 1) * F(1, 0);
     return F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) - F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
            F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
@@ -82,7 +84,82 @@ class Checker
             fail("the grid has more than 1e12 nodes");
     }
 
+    /// Whole chunks are looked at without branches; a bad one is looked at again for the message.
     void particles() const
+    {
+        bool good = true;
+#pragma omp parallel for schedule(static) reduction(&& : good) if (p_.size() > 100000)
+        for (Index first = 0; first < p_.size(); first += lanes)
+            good = good && (p_.dim == 2 ? chunkIsGood<2>(first) : chunkIsGood<3>(first));
+        if (!good)
+            findBadParticle();
+    }
+
+    /// Each id once. With ids far beyond the number of particles a table of all would be large: then they are sorted.
+    void ids() const
+    {
+        const auto id = p_.id.begin();
+        if (std::adjacent_find(id, id + p_.size(), std::greater_equal<>()) == id + p_.size())
+            return;
+        if (state_.nextId <= 64 * p_.size())
+        {
+            std::vector<bool> seen(std::size_t(state_.nextId), false);
+            bool twice = false;
+            for (Index i = 0; i < p_.size(); ++i)
+            {
+                twice = twice || seen[std::size_t(id[i])];
+                seen[std::size_t(id[i])] = true;
+            }
+            if (!twice)
+                return;
+        }
+        std::vector<std::int64_t> ids(id, id + p_.size());
+        std::sort(ids.begin(), ids.end());
+        const auto twice = std::adjacent_find(ids.begin(), ids.end());
+        if (twice != ids.end())
+            fail(fmt::format("particle id {} is there twice", *twice));
+    }
+
+  private:
+    template <int dim>
+    bool chunkIsGood(Index first) const
+    {
+        const Index n = std::min<Index>(lanes, p_.size() - first);
+        int bad = 0;
+        const auto finite = [&](const auto& columns, int used) {
+            for (int k = 0; k < used; ++k)
+                for (Index l = 0; l < n; ++l)
+                    bad |= !std::isfinite(columns[std::size_t(k)][std::size_t(first + l)]);
+        };
+        const auto positive = [&](const state::Column<double>& column) {
+            for (Index l = 0; l < n; ++l)
+            {
+                const double value = column[std::size_t(first + l)];
+                bad |= !(value > 0) | !std::isfinite(value);
+            }
+        };
+        finite(p_.x, dim);
+        finite(p_.v, dim);
+        finite(p_.stress, stressSize<dim>);
+        finite(p_.F, dim * dim);
+        for (int k = 0; k < dim; ++k)
+            positive(p_.length0[std::size_t(k)]);
+        positive(p_.mass);
+        positive(p_.volume0);
+        positive(p_.volume);
+        const auto materials = std::int32_t(state_.materials.size());
+        for (Index l = 0; l < n; ++l)
+        {
+            const auto i = std::size_t(first + l);
+            const double J = determinant<dim>(p_, i);
+            bad |= !(J > 0) | !std::isfinite(J);
+            bad |= (p_.material[i] < 0) | (p_.material[i] >= materials) | (p_.generation[i] < 0);
+            bad |= (p_.id[i] < 0) | (p_.id[i] >= state_.nextId);
+        }
+        return bad == 0;
+    }
+
+    void findBadParticle() const
     {
         const auto materials = std::int32_t(state_.materials.size());
         for (std::size_t i = 0; i < std::size_t(p_.size()); ++i)
@@ -96,7 +173,7 @@ class Checker
             positive("mass", p_.mass[i], i);
             positive("volume0", p_.volume0[i], i);
             positive("volume", p_.volume[i], i);
-            positive("det F", determinant(p_, i), i);
+            positive("det F", p_.dim == 2 ? determinant<2>(p_, i) : determinant<3>(p_, i), i);
             if (p_.material[i] < 0 || p_.material[i] >= materials)
                 fail(i, fmt::format("material index {} is not one of the {} materials", p_.material[i], materials));
             if (p_.id[i] < 0 || p_.id[i] >= state_.nextId)
@@ -106,17 +183,10 @@ class Checker
         }
     }
 
-    void ids() const
+    [[noreturn]] void fail(const std::string& message) const
     {
-        std::vector<std::int64_t> ids(p_.id.begin(), p_.id.begin() + p_.size());
-        std::sort(ids.begin(), ids.end());
-        const auto twice = std::adjacent_find(ids.begin(), ids.end());
-        if (twice != ids.end())
-            fail(fmt::format("particle id {} is there twice", *twice));
+        throw InputError({where_}, message);
     }
-
-  private:
-    [[noreturn]] void fail(const std::string& message) const { throw InputError({where_}, message); }
     [[noreturn]] void fail(std::size_t i, const std::string& message) const
     {
         fail(fmt::format("particle with id {} (row {}): {}", p_.id[i], i, message));

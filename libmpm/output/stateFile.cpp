@@ -5,11 +5,11 @@
 #include "output/ledgerEntries.hpp"
 #include "output/replaceFile.hpp"
 #include "output/visualisation.hpp"
+#include "state/particleOrder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace mpm::output
 {
@@ -18,23 +18,31 @@ namespace
 constexpr const char* formatName = "libmpm state";
 constexpr Index formatVersion = 1;
 
-/// Columns side by side: row i holds column 0 to n-1 of particle i.
-template <class T, std::size_t n>
-std::vector<T> interleaved(const std::array<state::Column<T>, n>& columns, int used, Index rows)
+/// Columns side by side: row i holds column 0 to used - 1 of particle i.
+template <std::size_t n>
+RowFiller<double> interleaved(const std::array<state::Column<double>, n>& columns, int used)
 {
-    std::vector<T> out(std::size_t(used) * std::size_t(rows));
-    for (int k = 0; k < used; ++k)
-        for (Index i = 0; i < rows; ++i)
-            out[std::size_t(i * used + k)] = columns[std::size_t(k)][std::size_t(i)];
-    return out;
+    return [&columns, used](Index first, Index rows, double* out) {
+        for (int k = 0; k < used; ++k)
+        {
+            const double* column = columns[std::size_t(k)].data() + first;
+            for (Index i = 0; i < rows; ++i)
+                out[i * used + k] = column[i];
+        }
+    };
 }
 
-template <class T, std::size_t n>
-void deal(const std::vector<T>& values, int used, Index rows, std::array<state::Column<T>, n>& columns)
+template <std::size_t n>
+RowTaker<double> dealTo(std::array<state::Column<double>, n>& columns, int used)
 {
-    for (int k = 0; k < used; ++k)
-        for (Index i = 0; i < rows; ++i)
-            columns[std::size_t(k)][std::size_t(i)] = values[std::size_t(i * used + k)];
+    return [&columns, used](Index first, Index rows, const double* in) {
+        for (int k = 0; k < used; ++k)
+        {
+            double* column = columns[std::size_t(k)].data() + first;
+            for (Index i = 0; i < rows; ++i)
+                column[i] = in[i * used + k];
+        }
+    };
 }
 
 /// "/" and "%" would change the meaning of an HDF5 name; "." alone is its own group.
@@ -102,13 +110,13 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
     const auto plain = [&]<class T>(const std::string& name, const state::Column<T>& column, const std::string& unit) {
         file.write<T>("/particles/" + name, std::span<const T>(column.data(), std::size_t(n)), {n}, unit);
     };
-    file.write<double>("/particles/position", interleaved(p.x, dim, n), {n, dim}, "m");
-    file.write<double>("/particles/velocity", interleaved(p.v, dim, n), {n, dim}, "m/s");
-    file.write<double>("/particles/stress", interleaved(p.stress, int(s), n), {n, s}, "Pa");
+    file.writeRows<double>("/particles/position", {n, dim}, "m", interleaved(p.x, dim));
+    file.writeRows<double>("/particles/velocity", {n, dim}, "m/s", interleaved(p.v, dim));
+    file.writeRows<double>("/particles/stress", {n, s}, "Pa", interleaved(p.stress, int(s)));
     file.setAttribute("/particles/stress", "components",
                       std::vector<std::string>(stressNames.begin(), stressNames.begin() + s));
-    file.write<double>("/particles/deformationGradient", interleaved(p.F, dim * dim, n), {n, dim, dim}, "1");
-    file.write<double>("/particles/length0", interleaved(p.length0, dim, n), {n, dim}, "m");
+    file.writeRows<double>("/particles/deformationGradient", {n, dim, dim}, "1", interleaved(p.F, dim * dim));
+    file.writeRows<double>("/particles/length0", {n, dim}, "m", interleaved(p.length0, dim));
     plain("mass", p.mass, dim == 2 ? "kg/m" : "kg");
     plain("volume0", p.volume0, measure);
     plain("volume", p.volume, measure);
@@ -124,18 +132,21 @@ void readParticles(const Hdf5File& file, state::Particles& p)
     const Shape shape = file.shape("/particles/position");
     const Index n = shape.empty() ? 0 : shape.front();
     const int s = stressComponents(dim);
-    // The first array is read before anything is allocated: it proves that the file holds n particles.
-    const auto position = file.read<double>("/particles/position", {-1, dim});
     const auto plain = [&]<class T>(const std::string& name, state::Column<T>& column) {
-        const auto values = file.read<T>("/particles/" + name, {n});
-        std::copy(values.begin(), values.end(), column.begin());
+        file.readRows<T>("/particles/" + name, {n}, [&](Index first, Index rows, const T* in) {
+            std::copy(in, in + rows, column.begin() + first);
+        });
     };
-    p.resize(n);
-    deal(position, dim, n, p.x);
-    deal(file.read<double>("/particles/velocity", {n, dim}), dim, n, p.v);
-    deal(file.read<double>("/particles/stress", {n, s}), s, n, p.stress);
-    deal(file.read<double>("/particles/deformationGradient", {n, dim, dim}), dim * dim, n, p.F);
-    deal(file.read<double>("/particles/length0", {n, dim}), dim, n, p.length0);
+    // Nothing is allocated before the first array has proved that the file holds n particles.
+    file.readRows<double>("/particles/position", {-1, dim}, [&](Index first, Index rows, const double* in) {
+        if (p.size() != n)
+            p.resize(n);
+        dealTo(p.x, dim)(first, rows, in);
+    });
+    file.readRows<double>("/particles/velocity", {n, dim}, dealTo(p.v, dim));
+    file.readRows<double>("/particles/stress", {n, s}, dealTo(p.stress, s));
+    file.readRows<double>("/particles/deformationGradient", {n, dim, dim}, dealTo(p.F, dim * dim));
+    file.readRows<double>("/particles/length0", {n, dim}, dealTo(p.length0, dim));
     plain("mass", p.mass);
     plain("volume0", p.volume0);
     plain("volume", p.volume);
@@ -186,8 +197,8 @@ void writePatches(Hdf5File& file, const std::vector<state::SurfacePatch>& patche
             file.fail(group, "a patch needs a name of its own");
         const Index n = patch.size();
         const int edges = dim * (dim - 1);
-        file.write<double>(group + "/centre", interleaved(patch.centre, dim, n), {n, dim}, "m");
-        file.write<double>(group + "/edges", interleaved(patch.edges, edges, n), {n, edges}, "m");
+        file.writeRows<double>(group + "/centre", {n, dim}, "m", interleaved(patch.centre, dim));
+        file.writeRows<double>(group + "/edges", {n, edges}, "m", interleaved(patch.edges, edges));
         file.setAttribute(group, "index", Index(i));
     }
 }
@@ -212,8 +223,8 @@ void readPatches(const Hdf5File& file, std::vector<state::SurfacePatch>& patches
             patch.centre[std::size_t(k)].resize(std::size_t(n));
         for (int k = 0; k < edges; ++k)
             patch.edges[std::size_t(k)].resize(std::size_t(n));
-        deal(centre, dim, n, patch.centre);
-        deal(edge, edges, n, patch.edges);
+        dealTo(patch.centre, dim)(0, n, centre.data());
+        dealTo(patch.edges, edges)(0, n, edge.data());
     }
     patches = std::move(found);
 }
@@ -235,20 +246,6 @@ int readDimension(const Hdf5File& file)
     return int(dim);
 }
 
-void sortByKeyAndId(state::Particles& p)
-{
-    std::vector<Index> order(std::size_t(p.size()));
-    std::iota(order.begin(), order.end(), Index(0));
-    const auto before = [&](Index a, Index b) {
-        const auto i = std::size_t(a), j = std::size_t(b);
-        return p.sortKey[i] != p.sortKey[j] ? p.sortKey[i] < p.sortKey[j] : p.id[i] < p.id[j];
-    };
-    if (std::is_sorted(order.begin(), order.end(), before))
-        return;
-    std::sort(order.begin(), order.end(), before);
-    p.permute(order);
-}
-
 void writeAll(const std::filesystem::path& name, const state::State& state)
 {
     Hdf5File file = Hdf5File::create(name);
@@ -264,25 +261,45 @@ void writeAll(const std::filesystem::path& name, const state::State& state)
 }
 } // namespace
 
-void writeState(const std::filesystem::path& timeFolder, const state::State& state)
+PendingState::PendingState(const std::filesystem::path& timeFolder, const state::State& state)
+    : file_(timeFolder / stateFileName), folderIsOurs_(!std::filesystem::exists(timeFolder))
 {
-    const auto file = timeFolder / stateFileName;
-    requireValid(state, file.string());
-    const bool folderIsOurs = !std::filesystem::exists(timeFolder);
+    requireValid(state, file_.string());
     makeFolder(timeFolder);
     try
     {
-        writeAll(temporaryName(file), state);
-        commitTemporary(file);
+        writeAll(temporaryName(file_), state);
     }
     catch (const InputError&)
     {
-        std::error_code ignored;
-        std::filesystem::remove(temporaryName(file), ignored);
-        if (folderIsOurs)
-            std::filesystem::remove(timeFolder, ignored); // only if empty
+        remove();
         throw;
     }
+}
+
+PendingState::~PendingState()
+{
+    if (!committed_)
+        remove();
+}
+
+void PendingState::commit()
+{
+    commitTemporary(file_);
+    committed_ = true;
+}
+
+void PendingState::remove() const
+{
+    std::error_code ignored;
+    std::filesystem::remove(temporaryName(file_), ignored);
+    if (folderIsOurs_)
+        std::filesystem::remove(file_.parent_path(), ignored); // only if empty
+}
+
+void writeState(const std::filesystem::path& timeFolder, const state::State& state)
+{
+    PendingState(timeFolder, state).commit();
 }
 
 state::State readState(const std::filesystem::path& name)
@@ -297,7 +314,7 @@ state::State readState(const std::filesystem::path& name)
     for (const auto& key : file.members("/provenance"))
         state.provenance[decoded(key)] = file.readText("/provenance/" + key);
     requireValid(state, name.string());
-    sortByKeyAndId(state.particles);
+    state::sortByKeyAndId(state.particles);
     return state;
 }
 

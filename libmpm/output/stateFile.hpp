@@ -38,6 +38,26 @@ namespace mpm::output
 {
 inline constexpr const char* stateFileName = "state.h5";
 
+/// A state on its way to <timeFolder>/state.h5, in a temporary beside it. Making one is all the work that needs the
+/// state; commit() waits for the disk and may run in another thread while the state moves on. Without it the temporary
+/// goes, and the folder too if it was made for it.
+class PendingState
+{
+  public:
+    PendingState(const std::filesystem::path& timeFolder, const state::State& state);
+    ~PendingState();
+    PendingState(const PendingState&) = delete;
+    PendingState& operator=(const PendingState&) = delete;
+
+    void commit();
+
+  private:
+    void remove() const;
+
+    std::filesystem::path file_;
+    bool folderIsOurs_, committed_ = false;
+};
+
 /// Writes <timeFolder>/state.h5, making the folder if needed. Derived fields of an older file are gone.
 /// A state that could not be read again (see above) is refused and the old file kept.
 void writeState(const std::filesystem::path& timeFolder, const state::State& state);

@@ -1,24 +1,56 @@
 #include "output/visualisation.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
 namespace mpm::output
 {
-Vector3 domainCorner(const state::Particles& p, Index particle, int c)
+namespace
 {
-    const auto i = std::size_t(particle);
-    Vector3 corner{};
-    for (int a = 0; a < p.dim; ++a)
-    {
-        double value = p.x[std::size_t(a)][i];
-        for (int k = 0; k < p.dim; ++k)
-            value += 0.5 * cornerSigns[std::size_t(c)][std::size_t(k)] * p.F[std::size_t(a * p.dim + k)][i] *
-                     p.length0[std::size_t(k)][i];
-        corner[std::size_t(a)] = value;
-    }
-    return corner;
+/// Vectors of three floats, z = 0 in 2D.
+RowFiller<float> vectors(const std::array<state::Column<double>, 3>& columns, int dim)
+{
+    return [&columns, dim](Index first, Index rows, float* out) {
+        for (int a = 0; a < 3; ++a)
+            for (Index i = 0; i < rows; ++i)
+                out[3 * i + a] = a < dim ? float(columns[std::size_t(a)][std::size_t(first + i)]) : 0.0f;
+    };
 }
+
+/// Rows are corners, 4 or 8 a particle; blocks begin with a particle (hdf5Values.cpp).
+template <int dim>
+RowFiller<float> cornersOf(const state::Particles& p)
+{
+    return [&p](Index first, Index rows, float* out) {
+        constexpr Index corners = dim == 2 ? 4 : 8;
+        for (int a = 0; a < 3; ++a)
+        {
+            if (a >= dim)
+            {
+                for (Index row = 0; row < rows; ++row)
+                    out[3 * row + a] = 0;
+                continue;
+            }
+            const double* x = p.x[std::size_t(a)].data() + first / corners;
+            const double *F[dim], *length[dim];
+            for (int k = 0; k < dim; ++k)
+            {
+                F[k] = p.F[std::size_t(a * dim + k)].data() + first / corners;
+                length[k] = p.length0[std::size_t(k)].data() + first / corners;
+            }
+            for (Index i = 0; i < rows / corners; ++i)
+                for (Index c = 0; c < corners; ++c)
+                {
+                    double value = x[i];
+                    for (int k = 0; k < dim; ++k)
+                        value += 0.5 * cornerSigns[std::size_t(c)][std::size_t(k)] * F[k][i] * length[k][i];
+                    out[3 * (corners * i + c) + a] = float(value);
+                }
+        }
+    };
+}
+} // namespace
 
 std::string stressComponentName(int component)
 {
@@ -35,50 +67,27 @@ std::vector<std::string> derivedComponentNames(const std::string& field, const s
     return names;
 }
 
-void writeDerivedVisualisation(Hdf5File& file, const std::string& field, const std::vector<std::string>& components,
-                               const std::vector<double>& rows, const std::string& unit)
-{
-    const auto names = derivedComponentNames(field, components);
-    const std::size_t width = names.size();
-    for (std::size_t k = 0; k < width; ++k)
-    {
-        std::vector<float> column;
-        for (std::size_t i = k; i < rows.size(); i += width)
-            column.push_back(float(rows[i]));
-        file.remove("/visualisation/derived/" + names[k]);
-        file.write<float>("/visualisation/derived/" + names[k], column, {Index(column.size())}, unit);
-    }
-}
-
 void writeVisualisation(Hdf5File& file, const state::Particles& p)
 {
     const Index n = p.size();
     const int corners = p.dim == 2 ? 4 : 8;
     if (n * corners > std::numeric_limits<std::int32_t>::max())
         file.fail("/visualisation", "more corners than 32-bit numbers count");
-    std::vector<float> points, velocity, corner;
-    for (Index i = 0; i < n; ++i)
-    {
-        for (int a = 0; a < 3; ++a)
-        {
-            points.push_back(a < p.dim ? float(p.x[std::size_t(a)][std::size_t(i)]) : 0.0f);
-            velocity.push_back(a < p.dim ? float(p.v[std::size_t(a)][std::size_t(i)]) : 0.0f);
-        }
-        for (int c = 0; c < corners; ++c)
-            for (double value : domainCorner(p, i, c))
-                corner.push_back(float(value));
-    }
-    std::vector<std::int32_t> numbers(std::size_t(n * corners));
-    std::iota(numbers.begin(), numbers.end(), 0);
-    file.write<float>("/visualisation/points", points, {n, 3}, "m");
-    file.write<float>("/visualisation/velocity", velocity, {n, 3}, "m/s");
-    file.write<float>("/visualisation/corners", corner, {n * corners, 3}, "m");
-    file.write<std::int32_t>("/visualisation/connectivity", std::span(numbers).first(std::size_t(n)), {n}, "1");
-    file.write<std::int32_t>("/visualisation/cornerConnectivity", numbers, {n, corners}, "1");
+    const RowFiller<std::int32_t> count = [](Index first, Index rows, std::int32_t* out) {
+        std::iota(out, out + rows, std::int32_t(first));
+    };
+    file.writeRows<float>("/visualisation/points", {n, 3}, "m", vectors(p.x, p.dim));
+    file.writeRows<float>("/visualisation/velocity", {n, 3}, "m/s", vectors(p.v, p.dim));
+    file.writeRows<float>("/visualisation/corners", {n * corners, 3}, "m",
+                          p.dim == 2 ? cornersOf<2>(p) : cornersOf<3>(p));
+    file.writeRows<std::int32_t>("/visualisation/connectivity", {n}, "1", count);
+    file.writeRows<std::int32_t>(
+        "/visualisation/cornerConnectivity", {n, corners}, "1",
+        [&](Index first, Index rows, std::int32_t* out) { count(first * corners, rows * corners, out); });
     for (int k = 0; k < stressComponents(p.dim); ++k)
-    {
-        const std::vector<float> column(p.stress[std::size_t(k)].begin(), p.stress[std::size_t(k)].begin() + n);
-        file.write<float>("/visualisation/" + stressComponentName(k), column, {n}, "Pa");
-    }
+        file.writeRows<float>("/visualisation/" + stressComponentName(k), {n}, "Pa",
+                              [&](Index first, Index rows, float* out) {
+                                  std::copy_n(p.stress[std::size_t(k)].data() + first, rows, out);
+                              });
 }
 } // namespace mpm::output

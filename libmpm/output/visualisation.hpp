@@ -14,17 +14,10 @@ namespace mpm::output
 inline constexpr std::array<std::array<int, 3>, 8> cornerSigns = {
     {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 
-/// Corner c of particle i's deformed domain [m].
-Vector3 domainCorner(const state::Particles& particles, Index i, int c);
-
 /// "sigma_xx", ...
 std::string stressComponentName(int component);
 /// "smoothedStress_xx", ...; the field's own name if it has one column.
 std::vector<std::string> derivedComponentNames(const std::string& field, const std::vector<std::string>& components);
 
 void writeVisualisation(Hdf5File& file, const state::Particles& particles);
-
-/// Columns of a derived field, given row by row; replaces those of the same name.
-void writeDerivedVisualisation(Hdf5File& file, const std::string& field, const std::vector<std::string>& components,
-                               const std::vector<double>& rows, const std::string& unit);
 } // namespace mpm::output

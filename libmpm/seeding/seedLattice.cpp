@@ -40,7 +40,12 @@ Vector3 edgeLengths(const BoxPart& part, int dim)
 class Merger
 {
   public:
-    Merger(int dim, double fraction) : dim_(dim), fraction_(fraction) {}
+    Merger(int dim, double fraction, std::size_t expected) : dim_(dim), fraction_(fraction)
+    {
+        seeds_.reserve(expected); // growing by doubling would need three times the memory
+        box_.reserve(expected);
+        boxVolume_.reserve(expected);
+    }
 
     void addRow(Index row, Index layer, const std::vector<BoxPart>& parts, double wholeSide)
     {
@@ -74,6 +79,11 @@ class Merger
             return original[slivers_[a].seed].volume < original[slivers_[b].seed].volume;
         });
         // From the smallest up: what a sliver has taken in goes on with it.
+        if (slivers_.empty())
+        {
+            result.seeds = std::move(seeds_);
+            return result;
+        }
         std::vector<bool> gone(seeds_.size(), false);
         for (const std::size_t s : order)
         {
@@ -171,7 +181,9 @@ class Merger
 RegionSeeds seedRegion(const geometry::Region& region, const BoxLattice& lattice, double sliverFraction,
                        const geometry::Region::Row& visit)
 {
-    Merger merger(region.dim(), sliverFraction);
+    const double boxVolume = std::pow(lattice.spacing(), region.dim());
+    const double most = 1e9; // a wrong unit is noticed elsewhere, not by running out of memory here
+    Merger merger(region.dim(), sliverFraction, std::size_t(std::min(most, 1.05 * region.volume() / boxVolume + 1000)));
     region.forEachRow(lattice, [&](Index row, Index layer, const std::vector<BoxPart>& parts) {
         merger.addRow(row, layer, parts, lattice.jittered() ? 0 : lattice.spacing());
         if (visit)

@@ -20,10 +20,24 @@ Overburden::Overburden(const state::State& state, const Vector3& gravity)
     g_ = std::abs(gravity[std::size_t(up_)]);
     sign_ = gravity[std::size_t(up_)] < 0 ? 1 : -1;
     area_ = dim_ == 2 ? width_ : width_ * width_;
+    const auto n = std::size_t(state.particles.size());
+    lastColumn_ = columns_.end();
+    height_.reserve(n);
+    ownBegin_.reserve(n + 1);
+    ownColumn_.reserve(n + n / 4);
+    ownMass_.reserve(n + n / 4);
     for (Index p = 0; p < state.particles.size(); ++p)
-        addParticle(state, p);
-    for (auto& [cell, column] : columns_)
-        std::sort(column.begin(), column.end(), [](const Share& a, const Share& b) { return a.top > b.top; });
+    {
+        makeShares(state, p);
+        for (const auto& [cell, share] : made_)
+        {
+            ownColumn_.push_back(columnOf(cell));
+            ownMass_.push_back(share.mass);
+        }
+        ownBegin_.push_back(ownColumn_.size());
+        height_.push_back(sign_ * state.particles.x[std::size_t(up_)][std::size_t(p)]);
+    }
+    sortShares(state);
 }
 
 bool Overburden::defined(const Vector3& gravity, int dim)
@@ -33,7 +47,7 @@ bool Overburden::defined(const Vector3& gravity, int dim)
            std::count_if(gravity.begin(), gravity.begin() + dim, isZero) == dim - 1;
 }
 
-void Overburden::addParticle(const state::State& state, Index particle)
+void Overburden::makeShares(const state::State& state, Index particle)
 {
     const auto& p = state.particles;
     const auto i = std::size_t(particle);
@@ -54,7 +68,7 @@ void Overburden::addParticle(const state::State& state, Index particle)
     }
     const double partMass = p.mass[i] / (parts[0] * parts[1] * parts[2]);
 
-    std::map<Cell, Share> shares;
+    made_.clear();
     for (int c = 0; c < parts[2]; ++c)
         for (int b = 0; b < parts[1]; ++b)
             for (int a = 0; a < parts[0]; ++a)
@@ -73,28 +87,81 @@ void Overburden::addParticle(const state::State& state, Index particle)
                     if (axis != up_)
                         cell[std::size_t(j++)] =
                             Index(std::floor((x[std::size_t(axis)] - origin_[std::size_t(axis)]) / width_));
-                const double height = sign_ * x[std::size_t(up_)];
-                auto& share = shares.try_emplace(cell, Share{height, height, 0}).first->second;
-                share.bottom = std::min(share.bottom, height - 0.5 * thickness);
-                share.top = std::max(share.top, height + 0.5 * thickness);
-                share.mass += partMass;
+                addPart(cell, sign_ * x[std::size_t(up_)], thickness, partMass);
             }
-    auto& own = sharesOf_.emplace_back();
-    for (const auto& [cell, share] : shares)
-    {
-        columns_[cell].push_back(share);
-        own.emplace_back(cell, share.mass);
-    }
-    height_.push_back(sign_ * p.x[std::size_t(up_)][i]);
+    std::sort(made_.begin(), made_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
 }
 
-double Overburden::massAbove(const std::vector<Share>& column, double height) const
+void Overburden::addPart(const Cell& cell, double height, double thickness, double mass)
 {
-    double mass = 0;
-    for (const auto& share : column) // from the highest top down
+    auto found = std::find_if(made_.rbegin(), made_.rend(), [&](const auto& made) { return made.first == cell; });
+    if (found == made_.rend())
     {
-        if (share.top <= height)
-            break;
+        made_.emplace_back(cell, Share{height, height, 0});
+        found = made_.rbegin();
+    }
+    Share& share = found->second;
+    share.bottom = std::min(share.bottom, height - 0.5 * thickness);
+    share.top = std::max(share.top, height + 0.5 * thickness);
+    share.mass += mass;
+}
+
+/// Neighbours in memory are mostly in the same column.
+std::int32_t Overburden::columnOf(const Cell& cell)
+{
+    if (lastColumn_ == columns_.end() || lastColumn_->first != cell)
+        lastColumn_ = columns_.try_emplace(cell, std::int32_t(columns_.size())).first;
+    return lastColumn_->second;
+}
+
+/// Makes the shares again instead of keeping them twice.
+void Overburden::sortShares(const state::State& state)
+{
+    columnBegin_.assign(columns_.size() + 1, 0);
+    for (const auto column : ownColumn_)
+        ++columnBegin_[std::size_t(column) + 1];
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+        columnBegin_[c + 1] += columnBegin_[c];
+    shares_.resize(ownColumn_.size());
+    massBefore_.resize(ownColumn_.size());
+    thickest_.assign(columns_.size(), 0);
+    auto next = columnBegin_;
+    auto column = ownColumn_.begin();
+    for (Index p = 0; p < state.particles.size(); ++p)
+    {
+        makeShares(state, p);
+        for (const auto& [cell, share] : made_)
+            shares_[next[std::size_t(*column++)]++] = share;
+    }
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+    {
+        const auto from = std::ptrdiff_t(columnBegin_[c]), to = std::ptrdiff_t(columnBegin_[c + 1]);
+        std::sort(shares_.begin() + from, shares_.begin() + to,
+                  [](const Share& a, const Share& b) { return a.top > b.top; });
+        double mass = 0;
+        for (std::size_t s = columnBegin_[c]; s < columnBegin_[c + 1]; ++s)
+        {
+            massBefore_[s] = mass;
+            mass += shares_[s].mass;
+            thickest_[c] = std::max(thickest_[c], shares_[s].top - shares_[s].bottom);
+        }
+    }
+}
+
+double Overburden::massAbove(std::int32_t column, double height) const
+{
+    const auto c = std::size_t(column);
+    const auto begin = shares_.begin() + std::ptrdiff_t(columnBegin_[c]);
+    const auto end = shares_.begin() + std::ptrdiff_t(columnBegin_[c + 1]);
+    // All with a top beyond `whole` lie above the height as a whole.
+    const double whole = height + (1 + 1e-9) * thickest_[c];
+    auto at = std::partition_point(begin, end, [&](const Share& share) { return share.top > whole; });
+    if (at != begin)
+        --at;
+    double mass = massBefore_[std::size_t(at - shares_.begin())];
+    for (; at != end && at->top > height; ++at)
+    {
+        const Share& share = *at;
         const double thickness = share.top - share.bottom;
         mass += thickness > 0 ? share.mass * std::min(1.0, (share.top - height) / thickness) : share.mass;
     }
@@ -109,10 +176,10 @@ double Overburden::stress(double massAbove) const
 double Overburden::atParticle(Index p) const
 {
     double sum = 0, mass = 0;
-    for (const auto& [cell, share] : sharesOf_[std::size_t(p)])
+    for (std::size_t s = ownBegin_[std::size_t(p)]; s < ownBegin_[std::size_t(p) + 1]; ++s)
     {
-        sum += share * massAbove(columns_.at(cell), height_[std::size_t(p)]);
-        mass += share;
+        sum += ownMass_[s] * massAbove(ownColumn_[s], height_[std::size_t(p)]);
+        mass += ownMass_[s];
     }
     return stress(sum / mass);
 }

@@ -12,6 +12,9 @@
 /// holds it, on an edge as the mean of the columns beside it that hold material.
 ///
 /// Gravity must point along one axis; "above" is against it. Verified in tests/unit/smoothing.cpp.
+///
+/// Time grows with particles times the logarithm of how many stand in a column: heights are found by bisection, the
+/// mass above comes from sums made once. Memory: about 70 bytes a particle.
 #include "state/state.hpp"
 
 #include <map>
@@ -39,15 +42,31 @@ class Overburden
         double mass;        ///< [kg]
     };
 
-    void addParticle(const state::State& state, Index p);
-    double massAbove(const std::vector<Share>& column, double height) const;
+    void makeShares(const state::State& state, Index p);
+    void addPart(const Cell& cell, double height, double thickness, double mass);
+    std::int32_t columnOf(const Cell& cell);
+    void sortShares(const state::State& state);
+    double massAbove(std::int32_t column, double height) const;
     double stress(double massAbove) const;
 
     int dim_ = 2, up_ = 1;
     double sign_ = 1, g_ = 0, width_ = 0, area_ = 0;
     Vector3 origin_{};
-    std::map<Cell, std::vector<Share>> columns_;
-    std::vector<std::vector<std::pair<Cell, double>>> sharesOf_; ///< by particle: column and mass in it
-    std::vector<double> height_;                                 ///< of particle centres
+    std::map<Cell, std::int32_t> columns_;
+    std::map<Cell, std::int32_t>::const_iterator lastColumn_;
+
+    // By column: its shares from the highest top down, and the mass of those before each.
+    std::vector<std::size_t> columnBegin_;
+    std::vector<Share> shares_;
+    std::vector<double> massBefore_;
+    std::vector<double> thickest_;
+
+    // By particle: columns it has a share in, in the order of cells, and its mass there.
+    std::vector<std::size_t> ownBegin_{0};
+    std::vector<std::int32_t> ownColumn_;
+    std::vector<double> ownMass_;
+    std::vector<double> height_; ///< of particle centres
+
+    std::vector<std::pair<Cell, Share>> made_; ///< shares of one particle
 };
 } // namespace mpm::smoothing

@@ -6,38 +6,68 @@
 
 namespace mpm::smoothing
 {
+namespace
+{
+/// Smooths `width` columns from the given one on and appends them. Node values stand side by side.
+template <std::size_t width>
+void append(SmoothedStress& out, const std::vector<const double*>& columns, std::size_t from,
+            const std::vector<double>& mass, const state::Particles& p, const WeightTable& table)
+{
+    const auto particles = std::size_t(p.size());
+    std::vector<std::array<double, width>> nodal(mass.size());
+    for (std::size_t i = 0; i < particles; ++i)
+    {
+        std::array<double, width> own;
+        for (std::size_t c = 0; c < width; ++c)
+            own[c] = columns[from + c][i];
+        table.visitNodes(Index(i), [&](std::size_t node, double weight) {
+            const double share = p.mass[i] * weight;
+            for (std::size_t c = 0; c < width; ++c)
+                nodal[node][c] += share * own[c];
+        });
+    }
+    for (std::size_t c = 0; c < width; ++c)
+    {
+        auto& values = out.nodal.emplace_back();
+        values.reserve(out.nodeMass.size());
+        for (std::size_t node = 0; node < mass.size(); ++node)
+            if (mass[node] > 0)
+                values.push_back(nodal[node][c] /= mass[node]);
+        out.smoothed.emplace_back(particles);
+    }
+    for (std::size_t i = 0; i < particles; ++i)
+    {
+        std::array<double, width> own{};
+        table.visitNodes(Index(i), [&](std::size_t node, double weight) {
+            for (std::size_t c = 0; c < width; ++c)
+                own[c] += weight * nodal[node][c];
+        });
+        for (std::size_t c = 0; c < width; ++c)
+            out.smoothed[from + c][i] = own[c];
+    }
+}
+} // namespace
+
 SmoothedStress smoothColumns(const std::vector<const double*>& columns, const state::Particles& p,
                              const WeightTable& table)
 {
     if (table.particles() != p.size())
         throw InputError(fmt::format("weights of {} particles for {} particles", table.particles(), p.size()));
-    const auto nodes = std::size_t(table.nodes()), particles = std::size_t(p.size());
-    std::vector<double> mass(nodes, 0.0);
-    StressColumns nodal(columns.size(), std::vector<double>(nodes, 0.0));
-    for (std::size_t i = 0; i < particles; ++i)
-        table.visitNodes(Index(i), [&](std::size_t node, double weight) {
-            mass[node] += p.mass[i] * weight;
-            for (std::size_t c = 0; c < columns.size(); ++c)
-                nodal[c][node] += p.mass[i] * weight * columns[c][i];
-        });
-
+    std::vector<double> mass(std::size_t(table.nodes()), 0.0);
+    for (Index i = 0; i < p.size(); ++i)
+        table.visitNodes(i, [&](std::size_t node, double weight) { mass[node] += p.mass[std::size_t(i)] * weight; });
     SmoothedStress out;
-    out.nodal.resize(columns.size());
-    out.smoothed.assign(columns.size(), std::vector<double>(particles, 0.0));
-    for (std::size_t node = 0; node < nodes; ++node)
-    {
-        if (mass[node] <= 0)
-            continue;
-        out.nodePosition.push_back(table.position[node]);
-        out.nodeMass.push_back(mass[node]);
-        for (std::size_t c = 0; c < columns.size(); ++c)
-            out.nodal[c].push_back(nodal[c][node] /= mass[node]);
-    }
-    for (std::size_t i = 0; i < particles; ++i)
-        table.visitNodes(Index(i), [&](std::size_t node, double weight) {
-            for (std::size_t c = 0; c < columns.size(); ++c)
-                out.smoothed[c][i] += weight * nodal[c][node];
-        });
+    for (std::size_t node = 0; node < mass.size(); ++node)
+        if (mass[node] > 0)
+        {
+            out.nodePosition.push_back(table.position[node]);
+            out.nodeMass.push_back(mass[node]);
+        }
+    std::size_t done = 0;
+    for (; done + 4 <= columns.size(); done += 4) // all of plane strain at once
+        append<4>(out, columns, done, mass, p, table);
+    for (; done < columns.size(); ++done)
+        append<1>(out, columns, done, mass, p, table);
     return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace mpm::smoothing
 {
@@ -32,45 +33,39 @@ void domains(const state::Particles& p, double h, Index first, double (&lambda)[
         }
 }
 
-/// The box of lattice nodes that supports may touch.
+/// Lattice nodes as numbers that grow along x, then y, then z; the box they count in holds all supports.
 template <int dim, class Shape>
-class NodeBox
+class NodeKeys
 {
   public:
-    explicit NodeBox(const state::State& state) : grid_(state.grid)
+    explicit NodeKeys(const state::State& state) : grid_(state.grid)
     {
         const auto& p = state.particles;
-        for (int a = 0; a < dim; ++a)
+        for (std::size_t a = 0; a < std::size_t(dim); ++a)
         {
-            const auto& x = p.x[std::size_t(a)];
-            const auto [low, high] = std::minmax_element(x.begin(), x.begin() + p.size());
-            first_[std::size_t(a)] =
-                shape::firstNode<Shape::nodes>(*low, grid_.origin[std::size_t(a)], 1 / grid_.h) - 1;
-            count_[std::size_t(a)] = shape::firstNode<Shape::nodes>(*high, grid_.origin[std::size_t(a)], 1 / grid_.h) +
-                                     Shape::nodes + 1 - first_[std::size_t(a)];
+            const auto [low, high] = std::minmax_element(p.x[a].begin(), p.x[a].begin() + p.size());
+            first_[a] = shape::firstNode<Shape::nodes>(*low, grid_.origin[a], 1 / grid_.h) - 1;
+            count_[a] =
+                shape::firstNode<Shape::nodes>(*high, grid_.origin[a], 1 / grid_.h) + Shape::nodes + 1 - first_[a];
         }
     }
-    Index index(const std::array<Index, 3>& node) const
+    Index stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? count_[0] : count_[0] * count_[1]; }
+    Index key(const std::array<Index, 3>& node) const
     {
         Index out = 0;
         for (int a = dim - 1; a >= 0; --a)
             out = out * count_[std::size_t(a)] + node[std::size_t(a)] - first_[std::size_t(a)];
         return out;
     }
-    std::vector<Vector3> positions() const
+    Vector3 position(Index key) const
     {
-        std::vector<Vector3> out;
-        for (Index k = 0; k < count_[2]; ++k)
-            for (Index j = 0; j < count_[1]; ++j)
-                for (Index i = 0; i < count_[0]; ++i)
-                {
-                    Vector3 x{};
-                    const std::array<Index, 3> node{i, j, k};
-                    for (std::size_t a = 0; a < std::size_t(dim); ++a)
-                        x[a] = grid_.origin[a] + grid_.h * double(first_[a] + node[a]);
-                    out.push_back(x);
-                }
-        return out;
+        Vector3 x{};
+        for (std::size_t a = 0; a < std::size_t(dim); ++a)
+        {
+            x[a] = grid_.origin[a] + grid_.h * double(first_[a] + key % count_[a]);
+            key /= count_[a];
+        }
+        return x;
     }
 
   private:
@@ -78,17 +73,84 @@ class NodeBox
     std::array<Index, 3> first_{}, count_{1, 1, 1};
 };
 
+/// Ascending keys, and with each those of the n - 1 nodes that follow it along an axis.
+std::vector<Index> spread(const std::vector<Index>& keys, int n, Index stride)
+{
+    std::vector<Index> all = keys, shifted(keys.size()), next;
+    for (int s = 1; s < n; ++s)
+    {
+        std::transform(keys.begin(), keys.end(), shifted.begin(), [&](Index key) { return key + s * stride; });
+        next.clear();
+        next.reserve(all.size() + keys.size());
+        std::set_union(all.begin(), all.end(), shifted.begin(), shifted.end(), std::back_inserter(next));
+        std::swap(all, next);
+    }
+    return all;
+}
+
+/// Numbers the nodes of all supports. On entry cell[p] is the place of p's first node in `corners`, which may hold a
+/// node several times; afterwards that of its support in `rows`.
+template <int dim, class Shape>
+void numberNodes(const NodeKeys<dim, Shape>& keys, const std::vector<Index>& corners, WeightTable& table)
+{
+    constexpr int n = Shape::nodes;
+    std::vector<std::pair<Index, std::int32_t>> byKey;
+    byKey.reserve(corners.size());
+    for (std::size_t c = 0; c < corners.size(); ++c)
+        byKey.emplace_back(corners[c], std::int32_t(c));
+    if (!std::is_sorted(byKey.begin(), byKey.end()))
+        std::sort(byKey.begin(), byKey.end());
+    std::vector<Index> supports;
+    std::vector<std::int32_t> place(corners.size());
+    for (const auto& [key, c] : byKey)
+    {
+        if (supports.empty() || supports.back() != key)
+            supports.push_back(key);
+        place[std::size_t(c)] = std::int32_t(supports.size() - 1);
+    }
+    byKey = {};
+    for (auto& cell : table.cell)
+        cell = place[std::size_t(cell)];
+
+    std::vector<Index> nodes = supports;
+    for (int a = 0; a < dim; ++a)
+        nodes = spread(nodes, n, keys.stride(a));
+    constexpr std::size_t perSupport = dim == 3 ? n * n : n;
+    table.rows.resize(supports.size() * perSupport);
+    for (int k = 0; k < (dim == 3 ? n : 1); ++k)
+        for (int j = 0; j < n; ++j)
+        {
+            std::size_t node = 0; // both lists ascend
+            for (std::size_t s = 0; s < supports.size(); ++s)
+            {
+                const Index wanted = supports[s] + j * keys.stride(1) + k * keys.stride(2);
+                while (nodes[node] != wanted)
+                    ++node;
+                table.rows[s * perSupport + std::size_t(k * n + j)] = Index(node);
+            }
+        }
+    table.position.reserve(nodes.size());
+    for (const Index key : nodes)
+        table.position.push_back(keys.position(key));
+}
+
 template <int dim, class Shape>
 WeightTable fill(const state::State& state)
 {
     constexpr int n = Shape::nodes;
+    static_assert(n >= 2 && n <= 4, "the table walks supports of two to four nodes an axis");
     const auto& p = state.particles;
     const auto& grid = state.grid;
-    const NodeBox<dim, Shape> box(state);
+    const NodeKeys<dim, Shape> keys(state);
     WeightTable table;
-    table.position = box.positions();
+    table.dim = dim;
+    table.nodesPerAxis = n;
+    table.cell.resize(std::size_t(p.size()));
+    table.weight.resize(std::size_t(p.size() * dim * n));
+    std::vector<Index> corners; // first nodes of the particles, repetitions left out
     shape::AxisWeights<n> w[dim];
     alignas(64) double lambda[dim][lanes];
+    double* out = table.weight.data();
     for (Index first = 0; first < p.size(); first += lanes)
     {
         domains<dim, Shape>(p, grid.h, first, lambda);
@@ -97,22 +159,20 @@ WeightTable fill(const state::State& state)
                             w[a]);
         for (int l = 0; l < std::min<Index>(lanes, p.size() - first); ++l)
         {
-            for (int k = 0; k < (dim == 3 ? n : 1); ++k)
-                for (int j = 0; j < n; ++j)
-                    for (int i = 0; i < n; ++i)
-                    {
-                        double weight = w[0].N[i][l] * w[1].N[j][l];
-                        std::array<Index, 3> node{w[0].base[l] + i, w[1].base[l] + j, 0};
-                        if constexpr (dim == 3)
-                        {
-                            weight *= w[2].N[k][l];
-                            node[2] = w[2].base[l] + k;
-                        }
-                        table.add(box.index(node), weight);
-                    }
-            table.endRow();
+            std::array<Index, 3> corner{};
+            for (int a = 0; a < dim; ++a)
+            {
+                corner[std::size_t(a)] = w[a].base[l];
+                for (int i = 0; i < n; ++i)
+                    *out++ = w[a].N[i][l];
+            }
+            const Index key = keys.key(corner);
+            if (corners.empty() || corners.back() != key)
+                corners.push_back(key);
+            table.cell[std::size_t(first + l)] = std::int32_t(corners.size() - 1);
         }
     }
+    numberNodes(keys, corners, table);
     return table;
 }
 

@@ -1,5 +1,6 @@
 #include "splitting/splitParticles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,51 @@ Edges deformedEdges(const state::State& s, const Rule& rule, std::size_t i)
         e.cuts += e.cut[k];
     }
     return e;
+}
+
+/// Does any of the chunk's particles have an edge over the threshold? Without branches, so that it costs no more than
+/// reading F and length0; padding lanes copy the last particle.
+template <int dim>
+bool anyLongEdge(const state::State& s, const Rule& rule, Index first)
+{
+    const auto& p = s.particles;
+    double over = 0; // largest square of an edge less that of the threshold
+    for (int k = 0; k < dim; ++k)
+    {
+        const double longest = rule.threshold * s.seedSpacing[std::size_t(k)], allowed = longest * longest;
+        const double* length = p.length0[std::size_t(k)].data() + first;
+        const double* F[dim];
+        for (int a = 0; a < dim; ++a)
+            F[a] = p.F[std::size_t(a * dim + k)].data() + first;
+        double worst[8] = {};
+        for (int l = 0; l < lanes; l += 8)
+            for (int i = 0; i < 8; ++i)
+            {
+                double square = 0;
+                for (int a = 0; a < dim; ++a)
+                    square += (F[a][l + i] * length[l + i]) * (F[a][l + i] * length[l + i]);
+                worst[i] = square > worst[i] ? square : worst[i];
+            }
+        for (const double square : worst)
+            over = std::max(over, square - allowed);
+    }
+    return over > 0;
+}
+
+/// Chunks that hold a particle with a long edge.
+std::vector<Index> chunksToSplit(const state::State& s, const Rule& rule)
+{
+    const Index chunks = s.particles.chunks();
+    std::vector<char> any(static_cast<std::size_t>(chunks));
+#pragma omp parallel for schedule(static) if (chunks > 1000)
+    for (Index c = 0; c < chunks; ++c)
+        any[std::size_t(c)] =
+            s.particles.dim == 2 ? anyLongEdge<2>(s, rule, c * lanes) : anyLongEdge<3>(s, rule, c * lanes);
+    std::vector<Index> found;
+    for (Index c = 0; c < chunks; ++c)
+        if (any[std::size_t(c)])
+            found.push_back(c);
+    return found;
 }
 
 /// Largest common factor of the offsets for which no child's domain crosses a barrier.
@@ -125,33 +171,38 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
     s.ledger.splits += 1;
     return (Index(1) << e.cuts) - 1;
 }
+
+void splitParticle(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers, Index i,
+                   Outcome& outcome)
+{
+    const Edges edges = deformedEdges(state, rule, std::size_t(i));
+    if (edges.cuts == 0)
+        return;
+    const Index children = Index(1) << edges.cuts;
+    if (state.particles.generation[std::size_t(i)] >= rule.maxGeneration ||
+        state.particles.size() + children - 1 > rule.maxParticles)
+    {
+        ++outcome.capped;
+        return;
+    }
+    const double factor = offsetFactor(state.particles, barriers, edges, std::size_t(i));
+    if (factor < 0.1)
+    {
+        ++outcome.putOff;
+        return;
+    }
+    outcome.added += makeChildren(state, i, edges, factor);
+    ++outcome.split;
+}
 } // namespace
 
 Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers)
 {
     Outcome outcome;
     const Index before = state.particles.size();
-    for (Index i = 0; i < before; ++i)
-    {
-        const Edges edges = deformedEdges(state, rule, std::size_t(i));
-        if (edges.cuts == 0)
-            continue;
-        const Index children = Index(1) << edges.cuts;
-        if (state.particles.generation[std::size_t(i)] >= rule.maxGeneration ||
-            state.particles.size() + children - 1 > rule.maxParticles)
-        {
-            ++outcome.capped;
-            continue;
-        }
-        const double factor = offsetFactor(state.particles, barriers, edges, std::size_t(i));
-        if (factor < 0.1)
-        {
-            ++outcome.putOff;
-            continue;
-        }
-        outcome.added += makeChildren(state, i, edges, factor);
-        ++outcome.split;
-    }
+    for (const Index chunk : chunksToSplit(state, rule))
+        for (Index i = chunk * lanes; i < std::min(before, (chunk + 1) * lanes); ++i)
+            splitParticle(state, rule, barriers, i, outcome);
     state.ledger.splitsPutOff = outcome.putOff;
     state.ledger.splitsCapped = outcome.capped;
     if (outcome.added > 0)

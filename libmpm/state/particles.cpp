@@ -1,9 +1,14 @@
 #include "state/particles.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 namespace mpm::state
 {
 namespace
 {
+constexpr Index manyParticles = 100000; ///< worth a second thread
+
 Index padded(Index n)
 {
     return (n + lanes - 1) / lanes * lanes;
@@ -14,14 +19,14 @@ Particles::Particles(int dimension) : dim(dimension) {}
 
 void Particles::resize(Index n)
 {
-    const Index old = size_;
-    forEachColumn([&](auto& column) { column.resize(std::size_t(padded(n))); });
-    for (Index i = old; i < n; ++i)
-    {
-        forEachColumn([&](auto& column) { column[std::size_t(i)] = 0; });
-        for (int k = 0; k < dim; ++k)
-            F[k * dim + k][std::size_t(i)] = 1;
-    }
+    const Index old = size_, padding = std::min(n, padded(old));
+    forEachColumn([&](auto& column) {
+        column.resize(std::size_t(padded(n))); // zeros, but for the old padding
+        if (old < padding)
+            std::fill(column.begin() + old, column.begin() + padding, 0);
+    });
+    for (int k = 0; k < dim && old < n; ++k)
+        std::fill(F[k * dim + k].begin() + old, F[k * dim + k].begin() + n, 1.0);
     size_ = n;
 }
 
@@ -37,10 +42,17 @@ void Particles::padLastChunk()
 
 void Particles::permute(const std::vector<Index>& order)
 {
-    forEachColumn([&](auto& column) {
-        auto copy = column;
+    std::tuple<Column<double>, Column<std::int64_t>, Column<std::int32_t>> scratch;
+    const Index* from = order.data();
+    forEachColumn([&]<class T>(Column<T>& column) {
+        auto& sorted = std::get<Column<T>>(scratch);
+        sorted.resize(column.size());
+        const T* in = column.data();
+        T* out = sorted.data();
+#pragma omp parallel for schedule(static) if (size_ > manyParticles)
         for (Index i = 0; i < size_; ++i)
-            column[std::size_t(i)] = copy[std::size_t(order[std::size_t(i)])];
+            out[i] = in[from[i]];
+        column.swap(sorted);
     });
     padLastChunk();
 }

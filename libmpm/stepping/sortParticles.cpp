@@ -1,9 +1,9 @@
 #include "stepping/sortParticles.hpp"
 
-#include <algorithm>
+#include "state/particleOrder.hpp"
+
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace mpm::stepping
 {
@@ -26,20 +26,8 @@ Index keyOf(const state::State& state, const state::TileLayout& layout, int supp
 
 void sortByStoredKeys(state::State& state)
 {
-    auto& p = state.particles;
-    const auto before = [&](Index i, Index j) {
-        const auto a = std::size_t(i), b = std::size_t(j);
-        return p.sortKey[a] != p.sortKey[b] ? p.sortKey[a] < p.sortKey[b] : p.id[a] < p.id[b];
-    };
-    std::vector<Index> order(static_cast<std::size_t>(p.size()));
-    std::iota(order.begin(), order.end(), Index(0));
-    if (std::is_sorted(order.begin(), order.end(), before))
-    {
-        p.padLastChunk();
-        return;
-    }
-    std::sort(order.begin(), order.end(), before);
-    p.permute(order);
+    if (!state::sortByKeyAndId(state.particles))
+        state.particles.padLastChunk();
 }
 
 void sortByPosition(state::State& state, const state::TileLayout& layout, int supportNodes)

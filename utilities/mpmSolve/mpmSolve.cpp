@@ -5,6 +5,7 @@ int main(int argc, char** argv)
 {
     using namespace mpm;
     cases::ApplicationInfo info{"mpmSolve", "large deformation of solids by the material point method"};
+    info.options = {{"profile", "", "write postProcessing/profile.csv: where the time went, pass by pass"}};
     info.usesDryRun = info.usesOverwrite = info.usesThreads = true;
     info.details =
         "Reads constant/{materialProperties,boundaryConditions,g}, system/{controlDict,gridDict,mpmSchemes} and "

@@ -94,15 +94,17 @@ int main(int argc, char** argv)
         if (options.dryRun)
             return 0;
         here.requireWritable();
-        for (const auto& time : times) // a broken state is found before anything is written
-            output::readState(here.statePath(time.name));
+        for (std::size_t i = 1; i < times.size(); ++i) // a broken state is found before anything is written
+            output::readState(here.statePath(times[i].name));
+        auto state = output::readState(here.statePath(times[0].name));
         output::CsvSeries csv(here.postProcessing() / "smoothStress.csv", columns);
         Table table({"time", "particles", "min nodal", "min raw", "min smoothed", "error nodal", "error raw",
                      "error smoothed", "corr nodal", "corr raw", "corr smoothed", "N", "N by mass", "N floor"});
         int axis = 1;
         for (const auto& time : times)
         {
-            const auto state = output::readState(here.statePath(time.name));
+            if (&time != &times[0])
+                state = output::readState(here.statePath(time.name));
             const auto weights = smoothing::weightTable(state, shape);
             const auto stress = smoothing::smoothStress(state.particles, weights);
             std::vector<double> overburden;

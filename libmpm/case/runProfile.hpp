@@ -1,0 +1,55 @@
+#pragma once
+/// Where the wall time of a run went: the passes of the step, history and output around it, and the rest. The rows add
+/// up to the time since the profile was made.
+///
+///     pass          what
+///     start         reading and checking the case, until the first step
+///     weights       shape functions
+///     toGrid        particles to grid: mass, momentum, forces
+///     nodal         gravity, walls, tractions: sweeps over nodes
+///     toParticles   grid to particles: velocity, position, second projection
+///     law           velocity gradients, deformation and stress
+///     sort, split   order of the particles in memory; refining them
+///     history       energy budget, rows of postProcessing/*.csv
+///     output        states and the index files of ParaView
+///     other         all else: step size, strain paths, progress
+///     total         the sum
+///
+/// nsPerParticleStep is a row's time over the sum, over all steps, of the particles there were. Covered by
+/// tests/cases/profile.py.
+#include "stepping/stepper.hpp"
+
+#include <chrono>
+#include <filesystem>
+
+namespace mpm::cases
+{
+class RunProfile
+{
+  public:
+    double history = 0, output = 0; ///< [s], filled by base/clock.hpp
+
+    /// Reading and checking are over.
+    void beginSteps(const stepping::PassTimes& passes);
+    /// A step of so many particles is done.
+    void countStep(Index particles) { particleSteps_ += double(particles); }
+    double elapsed() const; ///< since the profile was made [s]
+    double nsPerParticleStep(double seconds) const { return particleSteps_ > 0 ? 1e9 * seconds / particleSteps_ : 0; }
+
+    /// The rows as aligned text, those that took no time left out.
+    std::string text(const stepping::PassTimes& passes, int indent) const;
+    /// CSV: pass,seconds,share,nsPerParticleStep; share is a fraction of the total.
+    void write(const std::filesystem::path& file, const stepping::PassTimes& passes) const;
+
+  private:
+    struct Row
+    {
+        const char* pass;
+        double seconds;
+    };
+    std::vector<Row> rows(const stepping::PassTimes& passes) const;
+
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    double start_ = 0, particleSteps_ = 0;
+};
+} // namespace mpm::cases
