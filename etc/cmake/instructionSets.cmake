@@ -13,7 +13,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
 endif()
 set(MPM_INSTRUCTION_SETS "${sets}" CACHE STRING "without MPM_NATIVE: instruction sets of the kernels, lowest first")
 
-set(MPM_HIGHER_SETS "")
+set(MPM_HIGHER_SETS "") # beyond the first, MPM_BASE_SET
 if(MPM_NATIVE)
     set(MPM_BASE_SET native)
 elseif(MPM_INSTRUCTION_SETS)

@@ -1,8 +1,8 @@
 #pragma once
 /// Doubles that travel together on a machine whose registers do not hold all of them: a row of registers that works
-/// like one of the compiler's vectors (arithmetic lane by lane, a number times a vector, r[i]). A vector of the compiler
-/// that is wider than a register lives in memory, where every operation reads and writes it (g++ 12: 8 times slower in
-/// the transfer of uGIMP).
+/// like one of the compiler's vectors (arithmetic lane by lane, a number times a vector, r[i]). A vector of the
+/// compiler that is wider than a register lives in memory, where every operation reads and writes it (g++ 12: 8 times
+/// slower in the transfer of uGIMP).
 ///
 /// For kernels only, by way of base/record.hpp. Verified in tests/unit/record.cpp.
 #include <cstddef>
@@ -12,24 +12,60 @@
 
 namespace mpm
 {
+/// What comparing n lanes says: -1 or 0 in each lane.
+template <int n, class Part>
+struct alignas(sizeof(double) * n) LaneMask
+{
+    using Word = decltype(Part{} < Part{});
+    static constexpr int width = sizeof(Part) / sizeof(double);
+    static constexpr int parts = n / width;
+    Word part[parts];
+
+    LaneMask() = default;
+    template <class... Numbers>
+    MPM_INLINE explicit LaneMask(Numbers... all) : part{}
+    {
+        static_assert(sizeof...(Numbers) == n);
+        const long long given[n] = {all...};
+        for (int i = 0; i < n; ++i)
+            part[i / width][i % width] = given[i];
+    }
+    MPM_INLINE long long operator[](int i) const { return part[i / width][i % width]; }
+
+    friend MPM_INLINE LaneMask operator&(LaneMask a, const LaneMask& b) { return a &= b; }
+    friend MPM_INLINE LaneMask operator|(LaneMask a, const LaneMask& b) { return a |= b; }
+    MPM_INLINE LaneMask& operator&=(const LaneMask& b)
+    {
+        for (int p = 0; p < parts; ++p)
+            part[p] &= b.part[p];
+        return *this;
+    }
+    MPM_INLINE LaneMask& operator|=(const LaneMask& b)
+    {
+        for (int p = 0; p < parts; ++p)
+            part[p] |= b.part[p];
+        return *this;
+    }
+};
+
 /// n lanes in registers of type Part, a vector of the compiler.
 template <int n, class Part>
 struct alignas(sizeof(double) * n) LanePack
 {
     static constexpr int width = sizeof(Part) / sizeof(double);
     static constexpr int parts = n / width;
+    typedef Part Aliasing __attribute__((may_alias));
     Part part[parts];
 
     LanePack() = default;
-    /// Values of the first lanes; the others are zero.
+    /// Values of the first lanes, at least two; the others are zero.
     template <class... Numbers>
-    MPM_INLINE explicit(sizeof...(Numbers) == 0) LanePack(double first, Numbers... others) : part{}
+    MPM_INLINE LanePack(double first, double second, Numbers... others) : part{}
     {
-        static_assert(sizeof...(Numbers) < n);
-        const double given[n] = {first, double(others)...};
-        for (int p = 0; p < parts; ++p)
-            for (int i = 0; i < width; ++i)
-                part[p][i] = given[p * width + i];
+        static_assert(sizeof...(Numbers) + 2 <= n);
+        const double given[n] = {first, second, double(others)...};
+        for (int i = 0; i < n; ++i)
+            part[i / width][i % width] = given[i];
     }
 
     /// Lanes in memory, aligned like the pack.
@@ -45,53 +81,91 @@ struct alignas(sizeof(double) * n) LanePack
         for (int p = 0; p < parts; ++p)
             reinterpret_cast<Aliasing*>(to)[p] = part[p];
     }
+    /// The same number in all lanes.
+    MPM_INLINE static LanePack splat(double x)
+    {
+        LanePack r;
+        for (int p = 0; p < parts; ++p)
+            r.part[p] = x - Part{}; // not x + 0, which makes 0 of -0
+        return r;
+    }
 
     MPM_INLINE double& operator[](std::ptrdiff_t i) { return reinterpret_cast<double*>(part)[i]; }
     MPM_INLINE double operator[](std::ptrdiff_t i) const { return reinterpret_cast<const double*>(part)[i]; }
 
-    MPM_INLINE LanePack& operator+=(const LanePack& b) { return *this = *this + b; }
-    MPM_INLINE LanePack& operator-=(const LanePack& b) { return *this = *this - b; }
-    MPM_INLINE LanePack& operator*=(const LanePack& b) { return *this = *this * b; }
-
-    /// f(part of a, part of b), part by part.
-    template <class F>
-    MPM_INLINE static LanePack map(const LanePack& a, const LanePack& b, F&& f)
-    {
-        return mapParts(a, b, f, std::make_index_sequence<parts>());
-    }
-    friend MPM_INLINE LanePack operator+(const LanePack& a, const LanePack& b)
-    {
-        return map(a, b, [](Part x, Part y) __attribute__((always_inline)) { return x + y; });
-    }
-    friend MPM_INLINE LanePack operator-(const LanePack& a, const LanePack& b)
-    {
-        return map(a, b, [](Part x, Part y) __attribute__((always_inline)) { return x - y; });
-    }
-    friend MPM_INLINE LanePack operator*(const LanePack& a, const LanePack& b)
-    {
-        return map(a, b, [](Part x, Part y) __attribute__((always_inline)) { return x * y; });
-    }
-    friend MPM_INLINE LanePack operator-(const LanePack& a)
-    {
-        return map(a, a, [](Part x, Part) __attribute__((always_inline)) { return -x; });
-    }
-    friend MPM_INLINE LanePack operator*(double s, const LanePack& a)
-    {
-        return map(a, a, [s](Part x, Part) __attribute__((always_inline)) { return s * x; });
-    }
-    friend MPM_INLINE LanePack operator*(const LanePack& a, double s) { return s * a; }
-
-  private:
-    typedef Part Aliasing __attribute__((may_alias));
-
-    template <class F, std::size_t... p>
-    MPM_INLINE static LanePack mapParts(const LanePack& a, const LanePack& b, F& f, std::index_sequence<p...>)
+    MPM_INLINE LanePack operator-() const
     {
         LanePack r;
-        ((r.part[p] = f(a.part[p], b.part[p])), ...);
+        for (int p = 0; p < parts; ++p)
+            r.part[p] = -part[p];
         return r;
     }
 };
+
+/// a op b, lane by lane or with one number for all lanes, and a op= b.
+#define MPM_LANE_OPERATOR(op)                                                                                          \
+    template <int n, class Part>                                                                                       \
+    MPM_INLINE LanePack<n, Part> operator op(const LanePack<n, Part>& a, const LanePack<n, Part>& b)                   \
+    {                                                                                                                  \
+        LanePack<n, Part> r;                                                                                           \
+        for (int p = 0; p < r.parts; ++p)                                                                              \
+            r.part[p] = a.part[p] op b.part[p];                                                                        \
+        return r;                                                                                                      \
+    }                                                                                                                  \
+    template <int n, class Part>                                                                                       \
+    MPM_INLINE LanePack<n, Part> operator op(double a, const LanePack<n, Part>& b)                                     \
+    {                                                                                                                  \
+        LanePack<n, Part> r;                                                                                           \
+        for (int p = 0; p < r.parts; ++p)                                                                              \
+            r.part[p] = a op b.part[p];                                                                                \
+        return r;                                                                                                      \
+    }                                                                                                                  \
+    template <int n, class Part>                                                                                       \
+    MPM_INLINE LanePack<n, Part> operator op(const LanePack<n, Part>& a, double b)                                     \
+    {                                                                                                                  \
+        LanePack<n, Part> r;                                                                                           \
+        for (int p = 0; p < r.parts; ++p)                                                                              \
+            r.part[p] = a.part[p] op b;                                                                                \
+        return r;                                                                                                      \
+    }                                                                                                                  \
+    template <int n, class Part, class Other>                                                                          \
+    MPM_INLINE LanePack<n, Part>& operator op##=(LanePack<n, Part>& a, const Other& b)                                 \
+    {                                                                                                                  \
+        return a = a op b;                                                                                             \
+    }
+MPM_LANE_OPERATOR(+)
+MPM_LANE_OPERATOR(-)
+MPM_LANE_OPERATOR(*)
+MPM_LANE_OPERATOR(/)
+#undef MPM_LANE_OPERATOR
+
+#define MPM_LANE_COMPARISON(op)                                                                                        \
+    template <int n, class Part>                                                                                       \
+    MPM_INLINE LaneMask<n, Part> operator op(const LanePack<n, Part>& a, const LanePack<n, Part>& b)                   \
+    {                                                                                                                  \
+        LaneMask<n, Part> r;                                                                                           \
+        for (int p = 0; p < r.parts; ++p)                                                                              \
+            r.part[p] = a.part[p] op b.part[p];                                                                        \
+        return r;                                                                                                      \
+    }
+MPM_LANE_COMPARISON(<)
+MPM_LANE_COMPARISON(<=)
+MPM_LANE_COMPARISON(>)
+MPM_LANE_COMPARISON(>=)
+MPM_LANE_COMPARISON(==)
+MPM_LANE_COMPARISON(!=)
+#undef MPM_LANE_COMPARISON
+
+/// a where the mask is set, b elsewhere.
+template <int n, class Part>
+MPM_INLINE LanePack<n, Part> select(const LaneMask<n, Part>& mask, const LanePack<n, Part>& a,
+                                    const LanePack<n, Part>& b)
+{
+    LanePack<n, Part> r;
+    for (int p = 0; p < r.parts; ++p)
+        r.part[p] = mask.part[p] ? a.part[p] : b.part[p];
+    return r;
+}
 
 /// Where the lanes of register p of a shuffle come from: registers of a and b by number, lanes within them.
 template <int p, int width, int... from>
@@ -142,17 +216,23 @@ MPM_INLINE Part shufflePart(const LanePack<n, Part>& a, const LanePack<n, Part>&
         return __builtin_shufflevector(x, y, Source::at(0), Source::at(1), Source::at(2), Source::at(3));
 }
 
-/// Lanes of a (0 .. n - 1) and b (n .. 2n - 1) by number, as __builtin_shufflevector has it.
+/// Lanes of a (0 .. n - 1) and b (n .. 2n - 1) by number, n or n/2 of them, as __builtin_shufflevector has it.
 template <int... from, int n, class Part>
-MPM_INLINE LanePack<n, Part> shuffle(const LanePack<n, Part>& a, const LanePack<n, Part>& b)
+MPM_INLINE auto shuffle(const LanePack<n, Part>& a, const LanePack<n, Part>& b)
 {
-    static_assert(sizeof...(from) == n);
-    LanePack<n, Part> r;
-    [&]<int... p>(std::integer_sequence<int, p...>) __attribute__((always_inline))
+    constexpr int lanes = sizeof...(from);
+    static_assert(lanes == n || 2 * lanes == n);
+    if constexpr (lanes == LanePack<n, Part>::width)
+        return shufflePart<0, from...>(a, b);
+    else
     {
-        ((r.part[p] = shufflePart<p, from...>(a, b)), ...);
+        LanePack<lanes, Part> r;
+        [&]<int... p>(std::integer_sequence<int, p...>) __attribute__((always_inline))
+        {
+            ((r.part[p] = shufflePart<p, from...>(a, b)), ...);
+        }
+        (std::make_integer_sequence<int, LanePack<lanes, Part>::parts>());
+        return r;
     }
-    (std::make_integer_sequence<int, LanePack<n, Part>::parts>());
-    return r;
 }
 } // namespace mpm

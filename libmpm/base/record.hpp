@@ -29,10 +29,19 @@ using Record = LanePack<8, Lanes2>;
 using HalfRecord = LanePack<4, Lanes2>;
 #endif
 static_assert(sizeof(Record) == 64 && alignof(Record) == 64 && sizeof(HalfRecord) == 32 && alignof(HalfRecord) == 32);
+using Mask = decltype(Record{} < Record{}); ///< -1 or 0 in each lane
+using HalfMask = decltype(HalfRecord{} < HalfRecord{});
 
-/// Lanes of a (0 .. n - 1) and b (n .. 2n - 1) by number.
+/// Before a short loop over nodes or lanes whose values are to stay in registers.
+#ifdef __clang__
+#define MPM_UNROLL _Pragma("unroll")
+#else
+#define MPM_UNROLL _Pragma("GCC unroll 16")
+#endif
+
+/// Lanes of a (0 .. n - 1) and b (n .. 2n - 1) by number; four lanes of records make half a record.
 template <int... from>
-MPM_INLINE Lanes8 shuffle(const Lanes8& a, const Lanes8& b)
+MPM_INLINE auto shuffle(const Lanes8& a, const Lanes8& b)
 {
     return __builtin_shufflevector(a, b, from...);
 }
@@ -46,26 +55,12 @@ MPM_INLINE Lanes4 shuffle(const Lanes4& a, const Lanes4& b)
 template <class R>
 MPM_INLINE R splat(double x)
 {
-    if constexpr (sizeof(R) == sizeof(Record))
+    if constexpr (std::is_class_v<R>)
+        return R::splat(x);
+    else if constexpr (sizeof(R) == sizeof(Lanes8))
         return R{x, x, x, x, x, x, x, x};
     else
         return R{x, x, x, x};
-}
-
-/// The lower (0) or upper (1) half.
-template <int which>
-MPM_INLINE HalfRecord half(const Record& r)
-{
-#if defined(__AVX512F__)
-    return __builtin_shufflevector(r, r, 4 * which, 4 * which + 1, 4 * which + 2, 4 * which + 3);
-#elif defined(__AVX__)
-    return r.part[which];
-#else
-    HalfRecord h;
-    h.part[0] = r.part[2 * which];
-    h.part[1] = r.part[2 * which + 1];
-    return h;
-#endif
 }
 
 /// Eight (four) doubles of a column, at an address that is a multiple of 64 (32) bytes.
@@ -91,9 +86,49 @@ MPM_INLINE void storeAs(double* p, const R& r)
         *reinterpret_cast<Aliasing*>(p) = r;
     }
 }
-MPM_INLINE Record load(const double* p) { return loadAs<Record>(p); }
-MPM_INLINE void store(double* p, const Record& r) { storeAs(p, r); }
-MPM_INLINE void store(double* p, const HalfRecord& r) { storeAs(p, r); }
+MPM_INLINE Record load(const double* p)
+{
+    return loadAs<Record>(p);
+}
+MPM_INLINE void store(double* p, const Record& r)
+{
+    storeAs(p, r);
+}
+MPM_INLINE void store(double* p, const HalfRecord& r)
+{
+    storeAs(p, r);
+}
+
+/// Lane by lane: a where the mask is set, b elsewhere.
+template <class M, class R>
+requires(!std::is_class_v<R>) MPM_INLINE R select(const M& mask, const R& a, const R& b)
+{
+    return mask ? a : b;
+}
+/// The number a where the mask is set, b elsewhere.
+MPM_INLINE Record choose(const Mask& mask, double a, double b)
+{
+    return select(mask, splat<Record>(a), splat<Record>(b));
+}
+MPM_INLINE HalfRecord choose(const HalfMask& mask, double a, double b)
+{
+    return select(mask, splat<HalfRecord>(a), splat<HalfRecord>(b));
+}
+
+/// Sum of the lanes, always in the same order.
+MPM_INLINE double sumOf(const Record& r)
+{
+    return ((r[0] + r[1]) + (r[2] + r[3])) + ((r[4] + r[5]) + (r[6] + r[7]));
+}
+/// Lane by lane; a NaN in `a` is passed over.
+MPM_INLINE Record largerOf(const Record& a, const Record& b)
+{
+    return select(a > b, a, b);
+}
+MPM_INLINE Record smallerOf(const Record& a, const Record& b)
+{
+    return select(a < b, a, b);
+}
 
 /// Transposes an 8 x 8 block in place: eight records of eight lanes become eight columns and back.
 MPM_INLINE void transpose(Record (&r)[8])

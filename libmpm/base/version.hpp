@@ -19,7 +19,7 @@ std::string instructionSet();
 /// All of the above, one fact a line.
 std::vector<std::string> versionLines();
 
-/// The project's folder (the one that holds etc/): $MPM_PROJECT_DIR when set, as etc/bashrc does, otherwise the
-/// folder this library was configured in.
+/// The project's folder (the one that holds etc/): $MPM_PROJECT_DIR when set, as etc/bashrc does; of an installed
+/// program share/libmpm beside its bin/; otherwise the folder this library was configured in.
 std::string projectFolder();
 } // namespace mpm
