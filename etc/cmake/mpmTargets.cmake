@@ -10,9 +10,6 @@ target_compile_options(mpmWarnings INTERFACE -Wall -Wextra -Wno-psabi)
 add_library(mpmKernelFlags INTERFACE)
 target_compile_options(mpmKernelFlags INTERFACE
     -fno-math-errno -fno-trapping-math -fno-signed-zeros -ffp-contract=fast)
-if(MPM_NATIVE)
-    target_compile_options(mpmKernelFlags INTERFACE -march=native -mprefer-vector-width=512)
-endif()
 
 # mpm_utility(name LIBS...): one thin main, utilities/<name>/<name>.cpp, put into build/bin. The target `utilities`
 # builds them all, without the tests.
@@ -21,6 +18,7 @@ function(mpm_utility name)
     add_executable(${name} ${name}/${name}.cpp)
     target_link_libraries(${name} PRIVATE mpm::core mpmWarnings ${ARGN})
     add_dependencies(utilities ${name})
+    mpm_install_utility(${name})
 endfunction()
 
 # mpm_test(name LIBS...): one Catch2 program from <name>.cpp in the current folder; its cases become ctest tests whose

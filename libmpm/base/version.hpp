@@ -13,12 +13,13 @@ std::string gitRevision();
 std::string compilerText();
 /// Build type and the flags given to the compiler, kernels' flags included: "Release: -O3 -march=native ...".
 std::string compilerFlags();
-/// The widest instruction set the kernels were compiled for: "avx512", "avx2", "avx", "sse2", "neon" or "generic".
+/// What the running kernels were compiled for: "x86-64-v2", "x86-64-v3" (AVX2, FMA) or "x86-64-v4" (AVX-512) of a portable
+/// build, "native (znver4)" with the compiler's name of the machine it was built on, or the processor family.
 std::string instructionSet();
 /// All of the above, one fact a line.
 std::vector<std::string> versionLines();
 
-/// The project's folder (the one that holds etc/): $MPM_PROJECT_DIR when set, as etc/bashrc does, otherwise the
-/// folder this library was configured in.
+/// The project's folder (the one that holds etc/): $MPM_PROJECT_DIR when set, as etc/bashrc does; of an installed
+/// program share/libmpm beside its bin/; otherwise the folder this library was configured in.
 std::string projectFolder();
 } // namespace mpm

@@ -5,6 +5,7 @@
 #include "base/memory.hpp"
 #include "base/version.hpp"
 #include "case/makeStepper.hpp"
+#include "case/provenance.hpp"
 #include "case/strainRecorder.hpp"
 #include "output/stateFile.hpp"
 
@@ -140,6 +141,8 @@ void SolverRun::banner() const
     line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
                                   limit_.courant, limit_.waveSpeed * stepSize() / state_.grid.h));
     line("threads", fmt::format("{}", options_.threadCount()));
+    if (const auto note = instructionSetNote(state_, instructionSet()); !note.empty())
+        line("note", note);
 }
 
 void SolverRun::openOutput()
@@ -161,7 +164,7 @@ void SolverRun::openOutput()
     state_.provenance["version"] = projectVersion();
     state_.provenance["revision"] = gitRevision();
     state_.provenance["compiler"] = compilerText() + ", " + compilerFlags();
-    state_.provenance["instructionSet"] = instructionSet();
+    recordInstructionSet(state_, instructionSet());
     state_.provenance["dictionaries"] = scene_.dictionaries;
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
     profile_.beginSteps(stepper_->times());

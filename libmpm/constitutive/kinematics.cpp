@@ -17,7 +17,7 @@ bool allSmall(const double* L, int count, double dt)
     for (int i = 0; i < count; i += 8)
     {
         const Record x = load(L + i);
-        most = largerOf(x < Record{} ? -x : x, most);
+        most = largerOf(select(x < Record{}, -x, x), most);
     }
     double largest = 0;
     for (int l = 0; l < 8; ++l)

@@ -97,22 +97,22 @@ template <int dim>
 struct NodeLanes
 {
     /// -1 in the lanes of the velocity, of the trial velocity, 0 elsewhere.
-    static constexpr Mask velocity = dim == 2 ? Mask{0, -1, -1, 0, 0, 0, 0, 0} : Mask{0, -1, -1, -1, 0, 0, 0, 0};
-    static constexpr Mask trial = dim == 2 ? Mask{0, 0, 0, -1, -1, 0, 0, 0} : Mask{0, 0, 0, 0, -1, -1, -1, 0};
+    static Mask velocity() { return dim == 2 ? Mask{0, -1, -1, 0, 0, 0, 0, 0} : Mask{0, -1, -1, -1, 0, 0, 0, 0}; }
+    static Mask trial() { return dim == 2 ? Mask{0, 0, 0, -1, -1, 0, 0, 0} : Mask{0, 0, 0, 0, -1, -1, -1, 0}; }
 
     static Record toTrial(const Record& r)
     {
         if constexpr (dim == 2)
-            return __builtin_shufflevector(r, r, 0, 0, 0, 1, 2, 0, 0, 0);
+            return shuffle<0, 0, 0, 1, 2, 0, 0, 0>(r, r);
         else
-            return __builtin_shufflevector(r, r, 0, 0, 0, 0, 1, 2, 3, 0);
+            return shuffle<0, 0, 0, 0, 1, 2, 3, 0>(r, r);
     }
     static Record toVelocity(const Record& r)
     {
         if constexpr (dim == 2)
-            return __builtin_shufflevector(r, r, 0, 3, 4, 0, 0, 0, 0, 0);
+            return shuffle<0, 3, 4, 0, 0, 0, 0, 0>(r, r);
         else
-            return __builtin_shufflevector(r, r, 0, 4, 5, 6, 0, 0, 0, 0);
+            return shuffle<0, 4, 5, 6, 0, 0, 0, 0>(r, r);
     }
 };
 
@@ -126,7 +126,8 @@ void beginRow(NodeRow<dim>& row)
     {
         Record& r = row.node[i];
         const Record rates = r * (row.carries(i) ? 1 / r[0] : 0.0); // (1, v, f/m)
-        r = Lanes::velocity ? rates : Lanes::trial ? Lanes::toTrial(rates) + row.dt * rates : r;
+        const Record trial = Lanes::toTrial(rates) + row.dt * rates;
+        r = select(Lanes::velocity(), rates, select(Lanes::trial(), trial, r));
     }
 }
 
@@ -162,7 +163,8 @@ void endRow(NodeRow<dim>& row, double inverseDt)
     for (Index i = row.begin; i < row.end; ++i)
     {
         Record& r = row.node[i];
-        r = Lanes::velocity ? Lanes::toVelocity(r) : Lanes::trial ? inverseDt * (r - Lanes::toTrial(r)) : r;
+        const Record acceleration = inverseDt * (r - Lanes::toTrial(r));
+        r = select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
     }
 }
 } // namespace mpm::nodal

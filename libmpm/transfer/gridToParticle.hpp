@@ -17,13 +17,13 @@ template <>
 struct ValueNode<2>
 {
     using Type = HalfRecord;
-    static Type pack(const Record& r) { return __builtin_shufflevector(r, r, 1, 2, 3, 4); }
+    static Type pack(const Record& r) { return shuffle<1, 2, 3, 4>(r, r); }
 };
 template <>
 struct ValueNode<3>
 {
     using Type = Record;
-    static Type pack(const Record& r) { return __builtin_shufflevector(r, r, 1, 2, 3, 4, 5, 6, 7, 7); }
+    static Type pack(const Record& r) { return shuffle<1, 2, 3, 4, 5, 6, 7, 7>(r, r); }
 };
 
 /// Packs the velocity in lanes `lane`.. of a node record.
@@ -34,9 +34,9 @@ struct GradientNode
     static Type pack(const Record& r)
     {
         if constexpr (dim == 2)
-            return __builtin_shufflevector(r, r, lane, lane + 1, lane, lane + 1);
+            return shuffle<lane, lane + 1, lane, lane + 1>(r, r);
         else
-            return __builtin_shufflevector(r, r, lane, lane + 1, lane + 2, 7, lane, lane + 1, lane + 2, 7);
+            return shuffle<lane, lane + 1, lane + 2, 7, lane, lane + 1, lane + 2, 7>(r, r);
     }
 };
 
@@ -201,7 +201,7 @@ void gatherGradient(const ChunkWeights<3, Shape>& w, const Record* window, const
                     layerXY +=
                         choose(Mask{-1, -1, -1, -1, 0, 0, 0, 0}, w.axis[1].N[j][g + l], w.axis[1].G[j][g + l]) * row;
                     layerZ += splat<HalfRecord>(w.axis[1].N[j][g + l]) *
-                              __builtin_shufflevector(row, row, 4, 5, 6, 7);
+                              shuffle<4, 5, 6, 7>(row, row);
                 }
                 sumXY += splat<Record>(w.axis[2].N[k][g + l]) * layerXY;
                 sumZ += splat<HalfRecord>(w.axis[2].G[k][g + l]) * layerZ;

@@ -42,8 +42,8 @@ struct ParticleRecords<dim, Momentum>
             HalfRecord low[4], high[4];
             for (int k = 0; k < 4; ++k)
             {
-                low[k] = __builtin_shufflevector(t[k], t[k], 0, 1, 2, 3);
-                high[k] = __builtin_shufflevector(t[k], t[k], 4, 5, 6, 7);
+                low[k] = shuffle<0, 1, 2, 3>(t[k], t[k]);
+                high[k] = shuffle<4, 5, 6, 7>(t[k], t[k]);
             }
             transpose(low);
             transpose(high);
@@ -98,8 +98,8 @@ struct ParticleRecords<3, Forces>
             for (int l = 0; l < 8; ++l)
             {
                 r[g + l] = t[l];
-                sx[g + l] = __builtin_shufflevector(u[l], Record{}, 8, 9, 10, 11, 0, 1, 2, 15);
-                sy[g + l] = __builtin_shufflevector(u[l], Record{}, 8, 9, 10, 11, 4, 5, 6, 15);
+                sx[g + l] = shuffle<8, 9, 10, 11, 0, 1, 2, 15>(u[l], Record{});
+                sy[g + l] = shuffle<8, 9, 10, 11, 4, 5, 6, 15>(u[l], Record{});
             }
         }
     }
@@ -270,8 +270,8 @@ inline Record finishNode(const Record& r)
     if constexpr (dim == 3)
         return r;
     else
-        return __builtin_shufflevector(r, Record{}, 0, 1, 2, 3, 4, 8, 8, 8) +
-               __builtin_shufflevector(r, Record{}, 8, 8, 8, 5, 6, 8, 8, 8);
+        return shuffle<0, 1, 2, 3, 4, 8, 8, 8>(r, Record{}) +
+               shuffle<8, 8, 8, 5, 6, 8, 8, 8>(r, Record{});
 }
 /// A summed half record -> (m, p, 0).
 template <int dim>

@@ -1,9 +1,11 @@
 // Refines a stored state: splits stretched particles by the rule of system/splitParticlesDict, with the code the solver
 // splits with.
 #include "base/error.hpp"
+#include "base/version.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/copyCase.hpp"
+#include "case/provenance.hpp"
 #include "case/readScene.hpp"
 #include "output/stateFile.hpp"
 
@@ -42,6 +44,9 @@ int main(int argc, char** argv)
                 break;
         fmt::print("splitParticles: time {}: {} particles become {}; {} splits put off at walls, {} refused by caps\n",
                    times[0].name, before, state.particles.size(), state.ledger.splitsPutOff, state.ledger.splitsCapped);
+        if (const auto note = cases::instructionSetNote(state, instructionSet()); !note.empty())
+            fmt::print("  note: {}\n", note);
+        cases::recordInstructionSet(state, instructionSet());
         if (options.dryRun)
             return 0;
         if (options.has("target"))

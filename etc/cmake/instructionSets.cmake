@@ -1,0 +1,82 @@
+# Which instruction sets the kernels (mpm::core) are compiled for.
+#
+#   MPM_NATIVE=ON   that of this machine: one static library (the default; the fastest, and for this machine only)
+#   MPM_NATIVE=OFF  those in MPM_INSTRUCTION_SETS. With several, mpm::core is a shared library made once for each, in the
+#                   folders where the dynamic loader (glibc 2.33 and later) looks first for what the processor can do:
+#                       lib/libmpmCore.so                               the first set, which everything else is made for
+#                       lib/glibc-hwcaps/x86-64-v3/libmpmCore.so        AVX2 and FMA
+#                       lib/glibc-hwcaps/x86-64-v4/libmpmCore.so        AVX-512
+#                   No code of ours chooses, and no function compiled for AVX-512 can be linked into a program that has
+#                   to run without. With one set everything is compiled for it, and static.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
+    set(sets x86-64-v2 x86-64-v3 x86-64-v4)
+endif()
+set(MPM_INSTRUCTION_SETS "${sets}" CACHE STRING "without MPM_NATIVE: instruction sets of the kernels, lowest first")
+
+set(MPM_HIGHER_SETS "") # beyond the first, MPM_BASE_SET
+if(MPM_NATIVE)
+    set(MPM_BASE_SET native)
+elseif(MPM_INSTRUCTION_SETS)
+    set(MPM_HIGHER_SETS ${MPM_INSTRUCTION_SETS})
+    list(POP_FRONT MPM_HIGHER_SETS MPM_BASE_SET)
+    add_compile_options(-march=${MPM_BASE_SET})
+else()
+    set(MPM_BASE_SET ${CMAKE_SYSTEM_PROCESSOR})
+endif()
+set(MPM_CORE_TYPE STATIC)
+if(MPM_HIGHER_SETS)
+    set(MPM_CORE_TYPE SHARED)
+    # Eigen's alignment follows the instruction set; on both sides of a library's border it has to be the same.
+    add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64)
+endif()
+
+# What -march=native means here: the compiler's name of the machine and its widest vectors, as "znver3, avx512".
+function(mpm_native_name result)
+    set(flags -march=native -E -x c++ /dev/null)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} "-###" ${flags} OUTPUT_QUIET ERROR_VARIABLE call)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -dM ${flags} OUTPUT_VARIABLE macros ERROR_QUIET)
+    set(name ${CMAKE_SYSTEM_PROCESSOR})
+    if(call MATCHES "\"-target-cpu\" \"([^\"]+)" OR call MATCHES "cc1plus.*-march=([A-Za-z0-9_-]+)")
+        set(name ${CMAKE_MATCH_1})
+    endif()
+    foreach(vectors AVX512F AVX2 AVX SSE2)
+        if(macros MATCHES "#define __${vectors}__ 1")
+            string(TOLOWER ${vectors} vectors)
+            string(APPEND name ", ${vectors}")
+            break()
+        endif()
+    endforeach()
+    set(${result} "${name}" PARENT_SCOPE)
+endfunction()
+
+# mpm_instruction_set(target set): flags, place and what base/version.cpp says.
+function(mpm_instruction_set target set)
+    set(name ${set})
+    set(flags "")
+    if(set STREQUAL native)
+        mpm_native_name(machine)
+        set(name "native (${machine})")
+        set(flags -march=native)
+    elseif(MPM_INSTRUCTION_SETS)
+        set(flags -march=${set})
+    endif()
+    if(set STREQUAL x86-64-v4 OR (set STREQUAL native AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64"))
+        list(APPEND flags -mprefer-vector-width=512)
+    endif()
+    string(REPLACE ";" " " flagsText "${flags}")
+    target_compile_options(${target} PRIVATE ${flags})
+    target_compile_definitions(${target} PRIVATE MPM_INSTRUCTION_SET="${name}" "MPM_SET_FLAGS=\"${flagsText}\"")
+    if(MPM_CORE_TYPE STREQUAL SHARED)
+        set(folder "")
+        if(NOT set STREQUAL MPM_BASE_SET)
+            set(folder /glibc-hwcaps/${set})
+        endif()
+        set_target_properties(${target} PROPERTIES
+            OUTPUT_NAME mpmCore LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib${folder})
+        # Calls within the library stay there, as in a static one: a program's copy of an inline function, compiled for
+        # the lowest set, must not stand in for the library's own.
+        target_compile_options(${target} PRIVATE -fvisibility-inlines-hidden -fno-semantic-interposition)
+        target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
+        install(TARGETS ${target} LIBRARY DESTINATION ${MPM_LIBRARY_FOLDER}${folder})
+    endif()
+endfunction()

@@ -1,0 +1,48 @@
+#include "case/provenance.hpp"
+
+#include <fmt/format.h>
+
+namespace mpm::cases
+{
+namespace
+{
+constexpr const char* word = "instructionSet";
+constexpr const char* separator = "; ";
+constexpr const char* since = " from step ";
+
+std::string recorded(const state::State& state)
+{
+    const auto found = state.provenance.find(word);
+    return found == state.provenance.end() ? "" : found->second;
+}
+
+/// The set that computed the last step.
+std::string last(const std::string& record)
+{
+    const auto begin = record.rfind(separator);
+    const auto entry = begin == std::string::npos ? record : record.substr(begin + std::string(separator).size());
+    return entry.substr(0, entry.rfind(since));
+}
+} // namespace
+
+void recordInstructionSet(state::State& state, const std::string& running)
+{
+    const auto before = recorded(state);
+    if (before.empty() || state.step == 0)
+        state.provenance[word] = running;
+    else if (last(before) != running)
+        state.provenance[word] = fmt::format("{}{}{}{}{}", before, separator, running, since, state.step);
+}
+
+std::string instructionSetNote(const state::State& state, const std::string& running)
+{
+    const auto before = recorded(state);
+    if (before.empty() || before == running || state.step == 0)
+        return "";
+    if (last(before) == running)
+        return fmt::format("this state was computed with more than one instruction set ({})", before);
+    return fmt::format("this state was computed with {}, this is {}: results are no longer bitwise those of one "
+                       "instruction set",
+                       before, running);
+}
+} // namespace mpm::cases

@@ -1,0 +1,20 @@
+#pragma once
+/// Which instruction set computed a state. Results are bitwise those of one set (x86-64-v3 and v4 contract sums to
+/// fused multiply-adds, v2 has none; a native build may choose other sums to contract), so a state names every set its
+/// steps were computed with:
+///     x86-64-v3
+///     x86-64-v3; x86-64-v4 from step 250
+///
+/// Verified in tests/unit/provenance.cpp and by etc/compareInstructionSets.
+#include "state/state.hpp"
+
+#include <string>
+
+namespace mpm::cases
+{
+/// Adds the running set to the state's entry "instructionSet", unless the steps before were computed with it.
+void recordInstructionSet(state::State& state, const std::string& running);
+
+/// What to tell a user who goes on from the state; empty if it was computed with the running set alone.
+std::string instructionSetNote(const state::State& state, const std::string& running);
+} // namespace mpm::cases
