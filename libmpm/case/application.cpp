@@ -10,6 +10,9 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <omp.h>
+#ifdef __linux__
+#include <unistd.h>
+#endif
 
 namespace mpm::cases
 {
@@ -242,8 +245,34 @@ std::string helpPage(const ApplicationInfo& info)
     return page;
 }
 
+namespace
+{
+/// OpenMP's threads spin where they wait, unless the environment they find when the program is loaded says otherwise;
+/// beside another busy program two spinning threads are dozens of times slower than one. So the utility starts itself
+/// again with patient threads: they spin for some microseconds, then sleep. Who sets OMP_WAIT_POLICY decides instead.
+void letThreadsSleep(char** argv, const ApplicationInfo& info)
+{
+#ifdef __linux__
+    const bool threads = info.usesThreads || std::any_of(info.options.begin(), info.options.end(),
+                                                         [](const ExtraOption& o) { return o.name == "threads"; });
+    if (!threads)
+        return;
+    std::error_code failed;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
+    if (failed || self.filename() != info.name || std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT"))
+        return;
+    setenv("OMP_WAIT_POLICY", "passive", 1);
+    setenv("GOMP_SPINCOUNT", "2000", 1);
+    execv("/proc/self/exe", argv);
+#else
+    (void)argv, (void)info;
+#endif
+}
+} // namespace
+
 int runApplication(int argc, char** argv, const ApplicationInfo& info, const std::function<int(const Options&)>& body)
 {
+    letThreadsSleep(argv, info);
     try
     {
         const int code = run(std::vector<std::string>(argv + (argc > 0), argv + argc), info, body);

@@ -3,9 +3,10 @@
 /// neighbours stay contiguous under stretch and a rigid turn leaves sizes unchanged (F_xx would vanish at a quarter
 /// turn). (Wallstedt & Guilkey 2008; Coombs et al. 2020, doi 10.1016/j.cma.2019.112622, for the choice of U.)
 ///
-/// The mean of the hat over [d - lambda, d + lambda], d = (x_p - x_i)/h, holds for any 0 < lambda <= 1: with the ends
-/// a and b of that interval held within [-1, 1],
-///     N = (b - b |b|/2 - a + a |a|/2)/(2 lambda),   G = (|a| - |b|)/(2 lambda h)
+/// The mean of the hat over [d - lambda, d + lambda], d = |x_p - x_i|/h, holds for any 0 < lambda <= 1: with
+/// b = min(d + lambda, 1), a = d - lambda, width w = min(2 lambda, 1 - a)+,
+///     N = (w - q/2)/(2 lambda),  q = a >= 0 ? (a + b) w : a^2 + b^2
+///     G = -sign (b - |a|)/(2 lambda h)
 /// A domain wider than a cell touches four nodes per axis. Domains are not let grow beyond two cells (lambda = 1):
 /// the solver counts those and advises splitting.
 ///
@@ -23,8 +24,6 @@ struct CpGIMP
     static constexpr bool followsStretch = true;
     using Narrow = UGIMP; ///< the same function where lambda <= 1/2, on three nodes
 
-    static double withinHat(double c) { return c < -1 ? -1 : c > 1 ? 1 : c; }
-
     static void evaluate(const double* x, const double* lambda, double origin, double invH, AxisWeights<4>& w)
     {
         for (int l = 0; l < lanes; ++l)
@@ -37,10 +36,14 @@ struct CpGIMP
             MPM_UNROLL
             for (int n = 0; n < 4; ++n)
             {
-                const double upper = withinHat(t + la + (1 - n)), lower = withinHat(t - la + (1 - n));
-                const double au = std::abs(upper), al = std::abs(lower);
-                w.N[n][l] = half * (upper * (1 - 0.5 * au) - lower * (1 - 0.5 * al));
-                w.G[n][l] = invH * half * (al - au);
+                const double sign = n < 2 ? 1.0 : -1.0;
+                const double d = n < 2 ? t + (1 - n) : (n - 1) - t;
+                const double a = d - la, end = d + la, b = end < 1 ? end : 1;
+                const double room = 1 - a, narrower = room < 2 * la ? room : 2 * la, width = narrower > 0 ? narrower : 0;
+                const bool right = a >= 0;
+                const double q = right ? (a + b) * width : a * a + b * b;
+                w.N[n][l] = (width - 0.5 * q) * half;
+                w.G[n][l] = -sign * invH * half * (right ? width : b + a);
             }
         }
     }

@@ -43,7 +43,7 @@ int main(int argc, char** argv)
         "B/particle  resident memory of the run; columns: that of the state alone\n"
         "yielding    particles on the yield surface\n"
         "\n"
-        "With several threads set OMP_WAIT_POLICY=passive, as etc/bashrc does: threads that spin slow each other down.";
+        "Threads spin for some microseconds where they wait, then sleep; OMP_WAIT_POLICY in the environment decides instead.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const auto settings = benchmark::readSettings(options);
         const auto json = options.value("json");
