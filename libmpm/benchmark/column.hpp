@@ -45,7 +45,7 @@ splitting::Rule columnSplitting();
 
 /// dt [s] for cells of side h [m].
 double columnDeltaT(stepping::Stepper& stepper, const state::State& state, const stepping::Scene& scene,
-                    bool hasDomain);
+                    bool ignoresMass);
 
 /// Every particle replaced by its 2^dim children, cells halved, clock and ledger at the start of a new run. Children
 /// keep above the base by drawing all of them nearer to their common centre.

@@ -87,7 +87,7 @@ stepping::Scene sceneOf(const Setting& setting)
 struct Run
 {
     Run(ColumnCache& columns, const ColumnSize& size, const Setting& setting)
-        : scene(sceneOf(setting)), hasDomain(cases::shapeHasDomain(setting.shape)), state(columns.collapsed(size)),
+        : scene(sceneOf(setting)), ignoresMass(cases::limitIgnoresMass(setting.shape)), state(columns.collapsed(size)),
           stepper(cases::makeStepper(setting.shape, state, scene))
     {
         stepping::beginLedger(state, scene.materials);
@@ -99,7 +99,7 @@ struct Run
     double steps(Index count)
     {
         double done = 0;
-        const double dt = columnDeltaT(*stepper, state, scene, hasDomain);
+        const double dt = columnDeltaT(*stepper, state, scene, ignoresMass);
         for (Index i = 0; i < count; ++i)
         {
             done += double(state.particles.size());
@@ -121,7 +121,7 @@ struct Run
     }
 
     stepping::Scene scene;
-    bool hasDomain;
+    bool ignoresMass;
     state::State state;
     std::unique_ptr<stepping::Stepper> stepper;
     double stepSeconds = 0; ///< of the warm-up
@@ -228,7 +228,7 @@ const Timing& Bench::naive(const Setting& setting, const ColumnSize& size)
         const auto scene = sceneOf(setting);
         state::State state = columns_.collapsed(size);
         const auto ours = cases::makeStepper(setting.shape, state, scene);
-        dt = columnDeltaT(*ours, state, scene, cases::shapeHasDomain(setting.shape));
+        dt = columnDeltaT(*ours, state, scene, cases::limitIgnoresMass(setting.shape));
         ours->step(dt); // the naive step gets its particles sorted once
         stepper = makeNaiveStepper(setting.shape, state, scene);
     }

@@ -22,9 +22,11 @@ ShapeCount countOf(const std::string& shape)
     if (shape == "linear")
         return {2, 5, false, false};
     if (shape == "uGIMP")
-        return {3, 29, true, false};
+        return {3, 23, true, false};
     if (shape == "cpGIMP")
-        return {4, 57, true, true};
+        return {3, 23, true, true};
+    if (shape == "quadraticBSpline")
+        return {3, 17, false, false};
     throw InputError("the list of bytes and flops has no shape '" + shape + "'");
 }
 
@@ -55,18 +57,17 @@ struct SupportFlops
 double countBytes(int dim, const ShapeCount& shape, StressUpdate update)
 {
     const double d = dim, s = stressComponents(dim), l = shape.domain ? d : 0;
-    const double project = 2 * d + 2 + s + l;
     double doubles = shape.follows ? 2 * d : 0;
     switch (update)
     {
     case StressUpdate::MUSL:
-        doubles += project + (3 * d + 1 + l) + (2 * d + 2 * d * d + 2 * s + 2.5 + l);
+        doubles += (3 * d + 1 + l) + (3 * d + 2 * d * d + 2 * s + 3.5 + l);
         break;
     case StressUpdate::USL:
-        doubles += project + (4 * d + 2 * d * d + 2 * s + 3.5 + l);
+        doubles += 4 * d + 2 * d * d + 2 * s + 3.5 + l;
         break;
     case StressUpdate::USF:
-        doubles += (2 * d + 1 + l) + (d + 2 * d * d + 2 * s + 2.5 + l) + (4 * d + 1 + l);
+        doubles += (2 * d + 2 * d * d + 2 * s + 3.5 + l) + (4 * d + 1 + l);
         break;
     }
     return 8 * doubles;
@@ -76,7 +77,7 @@ double countFlops(int dim, const ShapeCount& shape, StressUpdate update, double 
 {
     const double d = dim, s = stressComponents(dim);
     const SupportFlops support(dim, shape.nodes);
-    const double kinematics = dim == 2 ? 4 + 111 + 28 + 3 + 1 : 9 + 464 + 112 + 14 + 1;
+    const double kinematics = dim == 2 ? 4 + 63 + 28 + 3 + 1 : 9 + 220 + 112 + 14 + 1;
     const double domains = shape.follows ? (dim == 2 ? 22 : 1029) : 0;
     double flops = d * shape.weightFlops + kinematics + domains + law;
     flops += d + (dim == 2 ? 3 : 6) + support.project(1 + d) + support.projectForces();

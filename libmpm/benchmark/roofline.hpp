@@ -4,33 +4,31 @@
 ///     roofline time = max(bytes/triad, flops/fmaPeak)        share = roofline time/(time measured)
 ///
 /// BYTES are those of particle columns in doubles of 8 B: each column that a pass needs is read once and, if it
-/// changes, written once. A pass is a sweep over particles that a sweep over nodes separates from the next one within a
-/// step; at its end the whole state is in memory (budget, output and coupling look at it), so the last pass of a step
-/// and the first of the next are two. Nodes, which caches can hold, and what is moved for sorting are not counted: a
-/// step moves more than this list, never less. d: dimension, s: 4 or 6 stress components, l: d half lengths of the
-/// domain or 0 (linear), M: the material's index, half a double.
+/// changes, written once. A pass is a sweep over particles between two sweeps over nodes; the one that ends a step also
+/// makes the first projection of the next. Nodes, which caches can hold, what is kept from one pass to the next (new
+/// positions) and what is moved for sorting are not counted: a step moves more than this list, never less. d: dimension,
+/// s: 4 or 6 stress components, l: d half lengths of the domain or 0 (linear, splines), M: the material's index, half a
+/// double.
 ///
-///     MUSL   project        read x v m V sigma l                      2d + 2 + s + l
-///            accelerate     read x v m l              write v         3d + 1 + l
-///            strain         read x F sigma V0 M l     write x F sigma V    2d + 2d^2 + 2s + 2.5 + l
-///     USL    project        as above
-///            the rest       read x v F sigma m V0 M l  write x v F sigma V  4d + 2d^2 + 2s + 3.5 + l
-///     USF    project        read x v m l                              2d + 1 + l
-///            strain, forces read x F sigma V0 M l     write F sigma V d + 2d^2 + 2s + 2.5 + l
-///            move           read x v m l              write x v       4d + 1 + l
+///     MUSL   accelerate       read x v m l               write v          3d + 1 + l
+///            strain, project  read x v m F sigma V0 M l  write x F sigma V    3d + 2d^2 + 2s + 3.5 + l
+///     USL    everything       read x v m F sigma V0 M l  write x v F sigma V  4d + 2d^2 + 2s + 3.5 + l
+///     USF    strain, project  read x v m F sigma V0 M l  write F sigma V  2d + 2d^2 + 2s + 3.5 + l
+///            move, project    read x v m l               write x v        4d + 1 + l
 ///     cpGIMP: the strain pass also reads length0 and writes the half lengths, 2d.
 ///
 /// FLOPS are useful ones: additions, multiplications, divisions and roots of the formulas (a fused multiply-add is
 /// two), each product over axes summed axis by axis (x innermost), weights and gradients once a step; selections,
 /// comparisons, signs, conversions and everything at nodes count nothing. n: nodes of the support an axis.
 ///
-///     weights an axis   linear 5, uGIMP 29, cpGIMP 57 (as in shape/)
+///     weights an axis   linear 5, uGIMP 23, quadraticBSpline 17 (as in shape/); cpGIMP as uGIMP, which it is while no
+///                       domain is wider than a cell
 ///     projection of c columns               2D n c + 2 n^2 c        3D (n + n^2) c + 2 n^3 c
 ///     projection of internal forces         2D 2 n d + 4 n^2 d      3D 3 n d + 4 n^2 d + 4 n^3 d
 ///     interpolation of c columns            2D 2 (n^2 + n) c        3D 2 (n^3 + n^2 + n) c
 ///     gradient of a vector                  2D 4 (n^2 + n) d        3D 4 n^3 d + 6 (n^2 + n) d
 ///     m v and V sigma: d and 3 or 6; v += dt a and its energy, x += dt v: 6d + 1; work of strain 2s + 2 (not USL)
-///     dt D, exp(dt L) F, dR sigma dR^T, det F, V:   2D 4 + 111 + 28 + 3 + 1      3D 9 + 464 + 112 + 14 + 1
+///     dt D, exp(dt L) F, dR sigma dR^T, det F, V:   2D 4 + 63 + 28 + 3 + 1      3D 9 + 220 + 112 + 14 + 1 (small steps)
 ///     domains of cpGIMP: 2D 22, 3D 1029
 ///     linearElastic: 2D 14, 3D 18; mohrCoulomb: 2D 104, 3D 339 (constitutive/, all operations of one lane)
 ///
@@ -50,7 +48,7 @@ struct Work
     double bytes = 0, flops = 0; ///< of one particle and step
 };
 
-/// What is counted. shape: linear, uGIMP, cpGIMP; law: linearElastic, mohrCoulomb. Throws InputError for a word the
+/// What is counted. shape: linear, uGIMP, cpGIMP, quadraticBSpline; law: linearElastic, mohrCoulomb. Throws InputError for a word the
 /// list does not have.
 Work countedWork(int dim, const std::string& shape, stepping::StressUpdate update, const std::string& law);
 

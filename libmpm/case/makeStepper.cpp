@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "shape/cpGIMP.hpp"
 #include "shape/linear.hpp"
+#include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
 
 namespace mpm::cases
@@ -12,11 +13,12 @@ const std::vector<dictionary::Choice>& shapeCatalogue()
     static const std::vector<dictionary::Choice> catalogue = {
         {"uGIMP", "particle domains that keep their size"},
         {"cpGIMP", "particle domains that follow the stretch"},
+        {"quadraticBSpline", "points and quadratic splines, smooth across cells"},
         {"linear", "points and hat functions, the original method"}};
     return catalogue;
 }
 
-bool shapeHasDomain(const std::string& shape)
+bool limitIgnoresMass(const std::string& shape)
 {
     return shape != "linear";
 }
@@ -34,6 +36,9 @@ std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::
     if (shape == "cpGIMP")
         return flat ? stepping::makeExplicitStepper<2, shape::CpGIMP>(state, scene)
                     : stepping::makeExplicitStepper<3, shape::CpGIMP>(state, scene);
+    if (shape == "quadraticBSpline")
+        return flat ? stepping::makeExplicitStepper<2, shape::QuadraticBSpline>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::QuadraticBSpline>(state, scene);
     throw InputError("there is no shape '" + shape + "'");
 }
 } // namespace mpm::cases

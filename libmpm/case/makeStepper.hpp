@@ -6,7 +6,8 @@ namespace mpm::cases
 {
 /// Names and help of the shapes, the default first.
 const std::vector<dictionary::Choice>& shapeCatalogue();
-bool shapeHasDomain(const std::string& shape);
+/// Does the stability limit stay as nodes empty? (All shapes but hat functions.)
+bool limitIgnoresMass(const std::string& shape);
 /// Throws InputError for a name that is not in the catalogue.
 std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
                                                const stepping::Scene& scene);

@@ -9,7 +9,7 @@
 ///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
 ///     free.
 /// system/mpmSchemes:
-///     shape         uGIMP;      // linear | uGIMP | cpGIMP
+///     shape         uGIMP;      // uGIMP | cpGIMP | quadraticBSpline | linear
 ///     stressUpdate  MUSL;       // USF | USL | MUSL
 ///     transfer      FLIP;
 ///     picRate       0;          // [1/s] share of PIC velocity mixed in per second

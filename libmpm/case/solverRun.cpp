@@ -172,7 +172,7 @@ void SolverRun::openOutput()
 
 stepping::StabilityLimit SolverRun::stabilityLimit() const
 {
-    return stepping::stabilityLimit(*stepper_, state_, scene_.scene, shapeHasDomain(scene_.shape));
+    return stepping::stabilityLimit(*stepper_, state_, scene_.scene, limitIgnoresMass(scene_.shape));
 }
 
 /// maxCo bounds the Courant number with the particles' own speed; the stability limit is kept with a margin.
@@ -189,7 +189,7 @@ void SolverRun::step()
 {
     timeBefore_ = state_.time;
     const Clock clock(stepSeconds_);
-    if (runTime_->adjustable() && stepping::limitFollowsMass(scene_.scene, shapeHasDomain(scene_.shape)))
+    if (runTime_->adjustable() && stepping::limitFollowsMass(scene_.scene, limitIgnoresMass(scene_.shape)))
         limit_ = stabilityLimit();
     if (recorder_)
         recorder_->before(state_);

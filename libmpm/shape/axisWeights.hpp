@@ -6,6 +6,9 @@
 /// A shape is a struct with
 ///     nodes                 support, nodes per axis
 ///     evaluate(x, lambda, origin, invH, w)   fills N, G [1/m] and the first node of each lane; x, lambda on 64 bytes
+///     Narrow                the shape to evaluate where no domain of a chunk is wider than a cell; the shape itself
+///                           unless it knows a cheaper form
+///     foldAtWall(...)       where the shape has functions of its own beside a wall
 /// Every shape keeps sum N = 1 and sum G = 0.
 #include "base/record.hpp"
 #include "base/types.hpp"

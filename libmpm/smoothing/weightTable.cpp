@@ -4,6 +4,7 @@
 #include "constitutive/kinematics.hpp"
 #include "shape/cpGIMP.hpp"
 #include "shape/linear.hpp"
+#include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
 
 #include <algorithm>
@@ -183,13 +184,15 @@ WeightTable fillBy(const state::State& state, const std::string& shape)
         return fill<dim, shape::Linear>(state);
     if (shape == "uGIMP")
         return fill<dim, shape::UGIMP>(state);
+    if (shape == "quadraticBSpline")
+        return fill<dim, shape::QuadraticBSpline>(state);
     return fill<dim, shape::CpGIMP>(state);
 }
 } // namespace
 
 const std::vector<std::string>& shapeNames()
 {
-    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP"};
+    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "quadraticBSpline"};
     return names;
 }
 

@@ -186,12 +186,12 @@ void ExplicitStepper<dim, Shape>::withWeights(Workspace& ws, const Vectors& x, i
     }
     if (narrow)
     {
-        ws.narrow.evaluate(x, ws.half, state_.grid);
+        ws.narrow.evaluate(x, ws.half, state_.grid, wallPlanes_);
         body(ws.narrow);
     }
     else if constexpr (Shape::followsStretch)
     {
-        ws.wide.evaluate(x, ws.half, state_.grid);
+        ws.wide.evaluate(x, ws.half, state_.grid, wallPlanes_);
         body(ws.wide);
     }
 }

@@ -126,6 +126,7 @@ class ExplicitStepper : public Stepper
     std::vector<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
+    transfer::WallPlanes wallPlanes_;
 
     state::TileLayout layout_;
     state::TileGrid grid_;

@@ -19,7 +19,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
     for (const auto& wall : scene.walls)
+    {
         walls_.emplace_back(wall);
+        wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
+    }
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)

@@ -5,11 +5,11 @@
 
 namespace mpm::stepping
 {
-double criticalCourant(bool hasDomain, StressUpdate update, double smallestNodalMassFraction)
+double criticalCourant(bool ignoresMass, StressUpdate update, double smallestNodalMassFraction)
 {
     if (update != StressUpdate::USL)
         return 1.4;
-    return hasDomain ? 0.65 : std::min(0.67, 1.8 * std::sqrt(smallestNodalMassFraction));
+    return ignoresMass ? 0.65 : std::min(0.67, 1.8 * std::sqrt(smallestNodalMassFraction));
 }
 
 double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials)
@@ -24,16 +24,16 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
     return fastest;
 }
 
-bool limitFollowsMass(const Scene& scene, bool hasDomain)
+bool limitFollowsMass(const Scene& scene, bool ignoresMass)
 {
-    return scene.stressUpdate == StressUpdate::USL && !hasDomain;
+    return scene.stressUpdate == StressUpdate::USL && !ignoresMass;
 }
 
-StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool hasDomain)
+StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool ignoresMass)
 {
     StabilityLimit limit;
-    limit.courant = criticalCourant(hasDomain, scene.stressUpdate,
-                                    limitFollowsMass(scene, hasDomain) ? stepper.smallestNodalMassFraction() : 1.0);
+    limit.courant = criticalCourant(ignoresMass, scene.stressUpdate,
+                                    limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
     limit.waveSpeed = fastestWave(state, scene.materials);
     limit.deltaT = limit.courant * state.grid.h / limit.waveSpeed;
     return limit;

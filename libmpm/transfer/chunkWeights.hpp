@@ -6,6 +6,9 @@
 
 namespace mpm::transfer
 {
+/// Lattice indices of the walls normal to each axis.
+using WallPlanes = std::array<std::vector<std::int32_t>, 3>;
+
 template <int dim, class Shape>
 struct ChunkWeights
 {
@@ -13,12 +16,19 @@ struct ChunkWeights
     shape::AxisWeights<n> axis[dim];
     alignas(64) std::int32_t offset[lanes]; ///< of node (0, 0, 0) of each lane's support in the window
 
-    /// x: positions [m]; half: half lengths of the domains over h (shapes without domains ignore them).
-    void evaluate(const double (&x)[dim][lanes], const double (&half)[dim][lanes], const state::GridBox& grid)
+    /// x: positions [m]; half: half lengths of the domains over h (shapes without domains ignore them); walls: planes of
+    /// nodes that carry a wall (shapes that know no walls ignore them).
+    void evaluate(const double (&x)[dim][lanes], const double (&half)[dim][lanes], const state::GridBox& grid,
+                  const WallPlanes& walls = {})
     {
         const double invH = 1 / grid.h;
         for (int a = 0; a < dim; ++a)
+        {
             Shape::evaluate(x[a], half[a], grid.origin[a], invH, axis[a]);
+            if constexpr (requires { &Shape::foldAtWall; })
+                for (const std::int32_t plane : walls[std::size_t(a)])
+                    Shape::foldAtWall(x[a], grid.origin[a], invH, plane, axis[a]);
+        }
     }
 
     /// Offsets in the window; false if a support reaches beyond it.

@@ -2,6 +2,7 @@
 // (METHOD Eq. 4, integrated numerically), derivatives, and the limit of vanishing domains.
 #include "shape/cpGIMP.hpp"
 #include "shape/linear.hpp"
+#include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
 
 #include <catch2/catch.hpp>
@@ -109,6 +110,60 @@ TEST_CASE("weights sum to one, gradients to zero, linear fields are kept")
     checkSums<shape::Linear>(randomLanes(0.1, 0.5));
     checkSums<shape::UGIMP>(randomLanes(0.01, 0.5));
     checkSums<shape::CpGIMP>(randomLanes(0.01, 1.0));
+    checkSums<shape::QuadraticBSpline>(randomLanes(0.1, 0.5));
+}
+
+TEST_CASE("quadratic splines are the mean of the hat over one cell")
+{
+    auto at = randomLanes(0.5, 0.5);
+    const auto w = weights<shape::QuadraticBSpline>(at);
+    for (int l = 0; l < lanes; ++l)
+        for (int n = 0; n < 3; ++n)
+        {
+            const double node = origin + h * (w.base[l] + n), x = at.x[l];
+            CHECK(w.N[n][l] == Approx(meanOfHat(node, x, 0.5 * h)).margin(1e-14));
+            CHECK(w.G[n][l] == Approx((hat(x + 0.5 * h - node) - hat(x - 0.5 * h - node)) / h).margin(1e-12));
+        }
+}
+
+TEST_CASE("beside a wall the spline leaves out the node behind, keeps linear fields and has no kink")
+{
+    using shape::QuadraticBSpline;
+    const std::int32_t plane = 3;
+    const double wall = origin + h * plane;
+    Lanes at = randomLanes(0.5, 0.5);
+    for (int l = 0; l < lanes; ++l)
+        at.x[l] = wall + h * (l + 0.25) / lanes; // the first cell
+    at.x[62] = wall + 0.5 * h * (1 - 1e-14);
+    at.x[63] = wall + 0.5 * h * (1 + 1e-14);
+    auto w = weights<QuadraticBSpline>(at);
+    QuadraticBSpline::foldAtWall(at.x, origin, 1 / h, plane, w);
+    for (int l = 0; l < lanes; ++l)
+    {
+        double sum = 0, first = 0, slope = 0, slopeOfX = 0;
+        for (int n = 0; n < 3; ++n)
+        {
+            const double node = origin + h * (w.base[l] + n);
+            CHECK(w.N[n][l] >= 0);
+            if (node < wall - 0.5 * h)
+                CHECK(w.N[n][l] == 0);
+            sum += w.N[n][l];
+            first += w.N[n][l] * node;
+            slope += w.G[n][l];
+            slopeOfX += w.G[n][l] * node;
+        }
+        CHECK(sum == Approx(1).epsilon(1e-14));
+        CHECK(first == Approx(at.x[l]).margin(1e-14));
+        CHECK(std::abs(slope) < 1e-13 / h);
+        CHECK(slopeOfX == Approx(1).epsilon(1e-13));
+    }
+    REQUIRE(w.base[62] + 1 == plane);
+    REQUIRE(w.base[63] == plane);
+    for (int n = 0; n < 2; ++n) // nodes on the wall and next to it, on both sides of half a cell
+    {
+        CHECK(w.N[n + 1][62] == Approx(w.N[n][63]).margin(1e-13));
+        CHECK(w.G[n + 1][62] == Approx(w.G[n][63]).margin(1e-11));
+    }
 }
 
 TEST_CASE("GIMP weights are means of the hat over the particle's domain")
