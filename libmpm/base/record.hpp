@@ -63,6 +63,32 @@ MPM_INLINE R splat(double x)
         return R{x, x, x, x};
 }
 
+/// The same address, of which the compiler no longer knows how it was made. Left to itself g++ addresses each of the 9 or
+/// 27 nodes of a support from the window's start and spends more on that than on the arithmetic.
+template <class T>
+MPM_INLINE T* opaque(T* address)
+{
+    asm("" : "+r"(address));
+    return address;
+}
+
+/// Two halves of a record.
+MPM_INLINE Record join(const HalfRecord& low, const HalfRecord& high)
+{
+#if defined(__AVX512F__)
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+    Record r;
+    constexpr int parts = sizeof(HalfRecord) / sizeof(r.part[0]);
+    for (int p = 0; p < parts; ++p)
+    {
+        r.part[p] = reinterpret_cast<std::add_pointer_t<const std::remove_reference_t<decltype(r.part[0])>>>(&low)[p];
+        r.part[parts + p] = reinterpret_cast<std::add_pointer_t<const std::remove_reference_t<decltype(r.part[0])>>>(&high)[p];
+    }
+    return r;
+#endif
+}
+
 /// Eight (four) doubles of a column, at an address that is a multiple of 64 (32) bytes.
 template <class R>
 MPM_INLINE R loadAs(const double* p)

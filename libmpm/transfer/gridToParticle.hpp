@@ -2,9 +2,8 @@
 /// Interpolation from nodes to particles, METHOD Eqs. 5, 6 and 8, for one chunk:
 ///     values    v*(x_p) = sum N_ip v*_i and a(x_p) = sum N_ip a_i
 ///     gradient  L_p = sum w_i gradN_ip, L[a][b] = dw_a/dx_b
-/// Nodes are read from windows repacked for the purpose: (v*, a) for values; the velocity w as often as a lane-wise
-/// choice between N and its gradient G needs it, (w_x w_y w_x w_y) in 2D and (w - w -) in 3D, whose lanes take
-/// (G G N N) of the x axis and (N N G G) of the y axis.
+/// Nodes are read from windows repacked for the purpose: (v*, a) for values; for gradients w, in 2D twice, (w_x w_y w_x
+/// w_y), whose lanes take (G G N N) of the x axis and (N N G G) of the y axis.
 ///
 /// Verified in tests/unit/transfer.cpp against sums over pairs of particles and nodes.
 #include "transfer/chunkWeights.hpp"
@@ -30,13 +29,13 @@ struct ValueNode<3>
 template <int dim, int lane>
 struct GradientNode
 {
-    using Type = std::conditional_t<dim == 2, HalfRecord, Record>;
+    using Type = HalfRecord;
     static Type pack(const Record& r)
     {
         if constexpr (dim == 2)
             return shuffle<lane, lane + 1, lane, lane + 1>(r, r);
         else
-            return shuffle<lane, lane + 1, lane + 2, 7, lane, lane + 1, lane + 2, 7>(r, r);
+            return shuffle<lane, lane + 1, lane + 2, 7>(r, r);
     }
 };
 
@@ -78,16 +77,17 @@ void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window, con
         HalfRecord value[8];
         for (int l = 0; l < 8; ++l)
         {
-            const HalfRecord* first = window + w.offset[g + l];
+            const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord sum{};
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
-                HalfRecord row{};
+                HalfRecord along{};
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    row += splat<HalfRecord>(w.axis[0].N[i][g + l]) * first[j * nx + i];
-                sum += splat<HalfRecord>(w.axis[1].N[j][g + l]) * row;
+                    along += splat<HalfRecord>(w.axis[0].N[i][g + l]) * row[i];
+                sum += splat<HalfRecord>(w.axis[1].N[j][g + l]) * along;
+                row += nx;
             }
             value[l] = sum;
         }
@@ -107,21 +107,27 @@ void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const s
         Record value[8];
         for (int l = 0; l < 8; ++l)
         {
-            const Record* first = window + w.offset[g + l];
-            Record sum{};
+            const Record* layer = opaque(window + w.offset[g + l]);
+            Record x[n], sum{};
+            MPM_UNROLL
+            for (int i = 0; i < n; ++i)
+                x[i] = splat<Record>(w.axis[0].N[i][g + l]);
             for (int k = 0; k < n; ++k)
             {
-                Record layer{};
+                const Record* row = layer;
+                Record inLayer{};
                 MPM_UNROLL
                 for (int j = 0; j < n; ++j)
                 {
-                    Record row{};
+                    Record along{};
                     MPM_UNROLL
                     for (int i = 0; i < n; ++i)
-                        row += splat<Record>(w.axis[0].N[i][g + l]) * first[k * nxy + j * nx + i];
-                    layer += splat<Record>(w.axis[1].N[j][g + l]) * row;
+                        along += x[i] * row[i];
+                    inLayer += splat<Record>(w.axis[1].N[j][g + l]) * along;
+                    row += nx;
                 }
-                sum += splat<Record>(w.axis[2].N[k][g + l]) * layer;
+                sum += splat<Record>(w.axis[2].N[k][g + l]) * inLayer;
+                layer = opaque(layer + nxy);
             }
             value[l] = sum;
         }
@@ -147,7 +153,7 @@ void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, c
         HalfRecord gradient[8];
         for (int l = 0; l < 8; ++l)
         {
-            const HalfRecord* first = window + w.offset[g + l];
+            const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord x[n], sum{};
             MPM_UNROLL
             for (int i = 0; i < n; ++i)
@@ -155,11 +161,12 @@ void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, c
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
-                HalfRecord row{};
+                HalfRecord along{};
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    row += x[i] * first[j * nx + i];
-                sum += choose(HalfMask{-1, -1, 0, 0}, w.axis[1].N[j][g + l], w.axis[1].G[j][g + l]) * row;
+                    along += x[i] * row[i];
+                sum += choose(HalfMask{-1, -1, 0, 0}, w.axis[1].N[j][g + l], w.axis[1].G[j][g + l]) * along;
+                row += nx;
             }
             gradient[l] = sum;
         }
@@ -167,56 +174,60 @@ void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, c
     }
 }
 
-/// 3D: the lower half of a record takes dx, the upper half dy; dz comes from the upper half with G of the z axis.
 template <class Shape, class Meanwhile>
-void gatherGradient(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box,
+void gatherGradient(const ChunkWeights<3, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
                     double (&L)[9][lanes], Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0], nxy = nx * box.n[1];
+    alignas(64) double unused[lanes];
     for (int g = 0; g < lanes; g += 8)
     {
         meanwhile();
-        Record xy[8];
-        HalfRecord z[8];
+        HalfRecord dx[8], dy[8], dz[8];
         for (int l = 0; l < 8; ++l)
         {
-            const Record* first = window + w.offset[g + l];
-            Record x[n], sumXY{};
-            HalfRecord sumZ{};
+            const HalfRecord* layer = opaque(window + w.offset[g + l]);
+            HalfRecord N[n], G[n], sumX{}, sumY{}, sumZ{};
             MPM_UNROLL
             for (int i = 0; i < n; ++i)
-                x[i] = choose(Mask{-1, -1, -1, -1, 0, 0, 0, 0}, w.axis[0].G[i][g + l], w.axis[0].N[i][g + l]);
+            {
+                N[i] = splat<HalfRecord>(w.axis[0].N[i][g + l]);
+                G[i] = splat<HalfRecord>(w.axis[0].G[i][g + l]);
+            }
             for (int k = 0; k < n; ++k)
             {
-                Record layerXY{};
-                HalfRecord layerZ{};
+                const HalfRecord* row = layer;
+                HalfRecord layerX{}, layerY{}, layerZ{};
                 MPM_UNROLL
                 for (int j = 0; j < n; ++j)
                 {
-                    Record row{};
+                    HalfRecord along{}, slope{};
                     MPM_UNROLL
                     for (int i = 0; i < n; ++i)
-                        row += x[i] * first[k * nxy + j * nx + i];
-                    layerXY +=
-                        choose(Mask{-1, -1, -1, -1, 0, 0, 0, 0}, w.axis[1].N[j][g + l], w.axis[1].G[j][g + l]) * row;
-                    layerZ += splat<HalfRecord>(w.axis[1].N[j][g + l]) *
-                              shuffle<4, 5, 6, 7>(row, row);
+                    {
+                        along += N[i] * row[i];
+                        slope += G[i] * row[i];
+                    }
+                    const HalfRecord ny = splat<HalfRecord>(w.axis[1].N[j][g + l]);
+                    layerX += ny * slope;
+                    layerY += splat<HalfRecord>(w.axis[1].G[j][g + l]) * along;
+                    layerZ += ny * along;
+                    row += nx;
                 }
-                sumXY += splat<Record>(w.axis[2].N[k][g + l]) * layerXY;
+                const HalfRecord nz = splat<HalfRecord>(w.axis[2].N[k][g + l]);
+                sumX += nz * layerX;
+                sumY += nz * layerY;
                 sumZ += splat<HalfRecord>(w.axis[2].G[k][g + l]) * layerZ;
+                layer = opaque(layer + nxy);
             }
-            xy[l] = sumXY;
-            z[l] = sumZ;
+            dx[l] = sumX;
+            dy[l] = sumY;
+            dz[l] = sumZ;
         }
-        transpose(xy);
-        for (int a = 0; a < 3; ++a)
-        {
-            store(L[3 * a] + g, xy[a]);
-            store(L[3 * a + 1] + g, xy[4 + a]);
-        }
-        alignas(64) double unused[lanes];
-        storeColumns(z, {L[2], L[5], L[8], unused}, g);
+        storeColumns(dx, {L[0], L[3], L[6], unused}, g);
+        storeColumns(dy, {L[1], L[4], L[7], unused}, g);
+        storeColumns(dz, {L[2], L[5], L[8], unused}, g);
     }
 }
 } // namespace mpm::transfer

@@ -2,7 +2,7 @@
 /// Projection of particles to nodes, METHOD Eqs. 2, 3 and 7:
 ///     m_i = sum m_p N_ip,   p_i = sum m_p v_p N_ip,   f_i = - sum V_p sigma_p . gradN_ip
 /// Shape functions are products over axes, and so are the terms of these sums. Which factor an axis contributes, N or
-/// its gradient G, depends on the lane of the record alone: in 2D the record (m, p_x, p_y, s_xx, s_xy, s_xy, s_yy),
+/// its gradient G, can then depend on the lane of a record: in 2D the record (m, p_x, p_y, s_xx, s_xy, s_xy, s_yy),
 /// s = -V sigma, is multiplied by (N N N G G N N) of the x axis and (N N N N N G G) of the y axis; the two halves of the
 /// force are added when windows are summed (finishNode). Lanes of a run share the first node (particles are sorted),
 /// so the run is summed in registers and added to memory once.
@@ -22,6 +22,24 @@ struct Forces ///< mass, momentum and internal force
     using Node = Record;
 };
 
+/// Four columns of eight numbers -> the half records of eight particles.
+MPM_INLINE void deal(const Record (&columns)[4], HalfRecord* out)
+{
+    HalfRecord low[4], high[4];
+    for (int k = 0; k < 4; ++k)
+    {
+        low[k] = shuffle<0, 1, 2, 3>(columns[k], columns[k]);
+        high[k] = shuffle<4, 5, 6, 7>(columns[k], columns[k]);
+    }
+    transpose(low);
+    transpose(high);
+    for (int l = 0; l < 4; ++l)
+    {
+        out[l] = low[l];
+        out[4 + l] = high[l];
+    }
+}
+
 /// The records of a chunk's particles.
 template <int dim, class What>
 struct ParticleRecords;
@@ -39,19 +57,7 @@ struct ParticleRecords<dim, Momentum>
             Record t[4] = {m};
             for (int a = 0; a < dim; ++a)
                 t[1 + a] = m * load(v[a] + g);
-            HalfRecord low[4], high[4];
-            for (int k = 0; k < 4; ++k)
-            {
-                low[k] = shuffle<0, 1, 2, 3>(t[k], t[k]);
-                high[k] = shuffle<4, 5, 6, 7>(t[k], t[k]);
-            }
-            transpose(low);
-            transpose(high);
-            for (int l = 0; l < 4; ++l)
-            {
-                r[g + l] = low[l];
-                r[g + 4 + l] = high[l];
-            }
+            deal(t, r + g);
         }
     }
 };
@@ -76,11 +82,11 @@ struct ParticleRecords<2, Forces>
     }
 };
 
-/// 3D: r = (m, p, s_z), and the columns s_x, s_y of s = -V sigma in lanes 4..6.
+/// 3D: mass and momentum (m, p), and the columns of s = -V sigma, (s_x -), (s_y -), (s_z -).
 template <>
 struct ParticleRecords<3, Forces>
 {
-    Record r[lanes], sx[lanes], sy[lanes];
+    HalfRecord mp[lanes], sx[lanes], sy[lanes], sz[lanes];
 
     void build(const double (&mass)[lanes], const double (&v)[3][lanes], const double (&volume)[lanes],
                const double (&stress)[6][lanes])
@@ -91,16 +97,10 @@ struct ParticleRecords<3, Forces>
             Record s[6];
             for (int k = 0; k < 6; ++k)
                 s[k] = minusV * load(stress[k] + g);
-            Record t[8] = {m, m * load(v[0] + g), m * load(v[1] + g), m * load(v[2] + g), s[5], s[4], s[2]};
-            Record u[8] = {s[0], s[3], s[5], Record{}, s[3], s[1], s[4]}; // both columns share one transpose
-            transpose(t);
-            transpose(u);
-            for (int l = 0; l < 8; ++l)
-            {
-                r[g + l] = t[l];
-                sx[g + l] = shuffle<8, 9, 10, 11, 0, 1, 2, 15>(u[l], Record{});
-                sy[g + l] = shuffle<8, 9, 10, 11, 4, 5, 6, 15>(u[l], Record{});
-            }
+            deal({m, m * load(v[0] + g), m * load(v[1] + g), m * load(v[2] + g)}, mp + g);
+            deal({s[0], s[3], s[5], Record{}}, sx + g);
+            deal({s[3], s[1], s[4], Record{}}, sy + g);
+            deal({s[5], s[4], s[2], Record{}}, sz + g);
         }
     }
 };
@@ -116,11 +116,15 @@ inline void zero(R (&sum)[count])
 template <int n, class R>
 inline void addLayer(const R (&sum)[n * n], R* first, Index nx)
 {
+    R* row = opaque(first);
     MPM_UNROLL
     for (int j = 0; j < n; ++j)
+    {
         MPM_UNROLL
         for (int i = 0; i < n; ++i)
-            first[j * nx + i] += sum[j * n + i];
+            row[i] += sum[j * n + i];
+        row = opaque(row + nx);
+    }
 }
 
 /// Sums lanes [l0, l1), which share their first node, and adds them to the nodes. 2D, mass and momentum.
@@ -199,31 +203,51 @@ inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecord
     }
 }
 
+/// 3D with internal force: f takes (G N N) s_x + (N G N) s_y + (N N G) s_z.
 template <int n>
 inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, Forces>& p, int l0, int l1,
                        Record* first, Index nx, Index nxy)
 {
     for (int k = 0; k < n; ++k)
     {
-        Record sum[n * n];
-        zero(sum);
+        HalfRecord mp[n * n], f[n * n];
+        zero(mp);
+        zero(f);
         for (int l = l0; l < l1; ++l)
         {
-            const double nz = w[2].N[k][l];
-            const Record z = choose(Mask{-1, -1, -1, -1, 0, 0, 0, -1}, nz, w[2].G[k][l]);
-            const Record layer = z * p.r[l], alongY = splat<Record>(nz) * p.sy[l], alongX = splat<Record>(nz) * p.sx[l];
+            const HalfRecord nz = splat<HalfRecord>(w[2].N[k][l]);
+            const HalfRecord momentum = nz * p.mp[l], alongX = nz * p.sx[l], alongY = nz * p.sy[l];
+            const HalfRecord alongZ = splat<HalfRecord>(w[2].G[k][l]) * p.sz[l];
+            HalfRecord nxOf[n], gxOf[n];
+            MPM_UNROLL
+            for (int i = 0; i < n; ++i)
+            {
+                nxOf[i] = splat<HalfRecord>(w[0].N[i][l]);
+                gxOf[i] = splat<HalfRecord>(w[0].G[i][l]);
+            }
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
-                const Record ny = splat<Record>(w[1].N[j][l]);
-                const Record plain = ny * layer + splat<Record>(w[1].G[j][l]) * alongY;
-                const Record slope = ny * alongX;
+                const HalfRecord ny = splat<HalfRecord>(w[1].N[j][l]);
+                const HalfRecord row = ny * momentum, slope = ny * alongX;
+                const HalfRecord plain = ny * alongZ + splat<HalfRecord>(w[1].G[j][l]) * alongY;
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    sum[j * n + i] += splat<Record>(w[0].N[i][l]) * plain + splat<Record>(w[0].G[i][l]) * slope;
+                {
+                    mp[j * n + i] += nxOf[i] * row;
+                    f[j * n + i] += nxOf[i] * plain + gxOf[i] * slope;
+                }
             }
         }
-        addLayer<n>(sum, first + k * nxy, nx);
+        Record* row = opaque(first + k * nxy);
+        MPM_UNROLL
+        for (int j = 0; j < n; ++j)
+        {
+            MPM_UNROLL
+            for (int i = 0; i < n; ++i)
+                row[i] += join(mp[j * n + i], f[j * n + i]);
+            row = opaque(row + nx);
+        }
     }
 }
 
