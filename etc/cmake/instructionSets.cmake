@@ -26,8 +26,8 @@ endif()
 set(MPM_KERNEL_LIBRARY STATIC)
 if(MPM_HIGHER_SETS)
     set(MPM_KERNEL_LIBRARY SHARED)
-    # Eigen's alignment follows the instruction set; on both sides of a library's border it has to be the same.
-    add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64)
+    # Eigen aligns objects and memory by the instruction set; on both sides of a library's border it has to be the same.
+    add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
 endif()
 
 # What -march=native means here: the compiler's name of the machine and its widest vectors, as "znver3, avx512".
