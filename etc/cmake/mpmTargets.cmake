@@ -10,6 +10,10 @@ target_compile_options(mpmWarnings INTERFACE -Wall -Wextra -Wno-psabi)
 add_library(mpmKernelFlags INTERFACE)
 target_compile_options(mpmKernelFlags INTERFACE
     -fno-math-errno -fno-trapping-math -fno-signed-zeros -ffp-contract=fast)
+if(MPM_KERNEL_LIBRARY STREQUAL STATIC) # else each library has its own
+    mpm_set_flags(${MPM_BASE_SET} setFlags)
+    target_compile_options(mpmKernelFlags INTERFACE ${setFlags})
+endif()
 
 # mpm_utility(name LIBS...): one thin main, utilities/<name>/<name>.cpp, put into build/bin. The target `utilities`
 # builds them all, without the tests.

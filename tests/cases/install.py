@@ -45,6 +45,20 @@ class Install(unittest.TestCase):
         self.assertEqual({path.name for path in (self.home / "bin").iterdir()}, utilities)
         self.assertEqual(len(list(self.home.glob("lib/**/libmpmCore.so"))), len(list(BUILD.glob("lib/**/libmpmCore.so"))))
 
+    def symbols(self, option, path):
+        return {line.split()[-1] for line in self.shell(f"nm -D {option} '{path}'").splitlines()}
+
+    def test_programs_find_all_they_call_in_every_library(self):
+        # a type that depends on the instruction set, as Record, would be another name in each library
+        for name in ("libmpmCore.so", "libmpmBenchmark.so"):
+            first, *others = sorted(self.home.glob(f"lib/**/{name}"), key=lambda path: len(path.parts))
+            offered = self.symbols("--defined-only", first)
+            called = set().union(*(self.symbols("--undefined-only", path) for path in (self.home / "bin").iterdir()))
+            self.assertGreater(len(offered & called), 3)
+            for other in others:
+                with self.subTest(other.relative_to(self.home)):
+                    self.assertEqual((offered & called) - self.symbols("--defined-only", other), set())
+
     def test_each_instruction_set_can_be_asked_for(self):
         said = [self.shell(f". '{self.share}/etc/bashrc'; mpmSolve -version | grep instructions", MPM_INSTRUCTION_SET=name)
                 for name in ("x86-64-v2", "")]

@@ -106,7 +106,7 @@ class InstructionSets(unittest.TestCase):
                 first, second = expected[f"particles/{key}"], found[f"particles/{key}"]
                 error = np.abs(first - second).max() / np.abs(first).max()
                 with self.subTest(name, field=key):
-                    self.assertLess(error, 1e-8)  # 2e2 steps of 1e-16, times what yielding makes of it
+                    self.assertLess(error, 1e-11)  # 200 steps of round-off, times what yielding makes of it
             if name == SETS[1]:  # v2 has no fused multiply-add
                 self.assertNotEqual(expected["particles/velocity"].tobytes(), found["particles/velocity"].tobytes())
 

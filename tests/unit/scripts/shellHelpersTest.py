@@ -65,6 +65,36 @@ class ShellHelpers(unittest.TestCase):
         _, out, _ = self.shell(f". {self.project}/etc/bashrc; echo $PATH", MPM_BUILD_DIR="/elsewhere/build-asan")
         self.assertTrue(out.startswith(f"/elsewhere/build-asan/bin:{self.project}/etc:"), out)
 
+    def test_an_instruction_set_hides_what_lies_above(self):
+        def tunables(before, *wanted):
+            lines = "; ".join(f"MPM_INSTRUCTION_SET={name}; . {self.project}/etc/bashrc" for name in wanted)
+            return self.shell(f'{lines}; echo "${{GLIBC_TUNABLES-none}}"', GLIBC_TUNABLES=before)[1].strip()
+
+        hidden2, hidden3 = "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F", "glibc.cpu.hwcaps=-AVX512F"
+        self.assertEqual(tunables("", "x86-64-v2"), hidden2)
+        self.assertEqual(tunables("", "x86-64-v3"), hidden3)
+        self.assertEqual(tunables("", "x86-64-v2", "x86-64-v3"), hidden3)
+        self.assertEqual(tunables("", "x86-64-v2", ""), "none")
+        self.assertEqual(tunables("", "x86-64-v4"), "none")
+        other = "glibc.malloc.check=0"
+        self.assertEqual(tunables(other, ""), other)
+        self.assertEqual(tunables(other, "x86-64-v3"), f"{other}:{hidden3}")
+        self.assertEqual(tunables(other, "x86-64-v3", "x86-64-v4"), other)
+
+    def test_an_instruction_set_nobody_knows_is_refused(self):
+        code, _, err = self.shell(f". {self.project}/etc/bashrc", MPM_INSTRUCTION_SET="avx9")
+        self.assertEqual(code, 1)
+        self.assertIn("found 'avx9', allowed x86-64-v2, x86-64-v3, x86-64-v4", err)
+
+    def test_an_installed_tree_has_its_utilities_elsewhere(self):
+        (self.project / "etc" / "installed").write_text("../bin\n")
+        shutil.copy(PROJECT / "etc" / "bootstrap", self.project / "etc")
+        programs = self.project.parent / "bin"
+        programs.mkdir()
+        _, out, _ = self.shell(f". {self.project}/etc/bashrc; echo $PATH; {self.project}/etc/bootstrap && echo nothing to do")
+        self.assertTrue(out.startswith(f"{programs}:"), out)
+        self.assertIn("nothing to do", out)
+
     def complete(self, *words):
         quoted = " ".join(f"'{word}'" for word in words)
         code, out, err = self.shell(
