@@ -3,6 +3,7 @@
 #include "microBenchmark.hpp"
 #include "shape/cpGIMP.hpp"
 #include "shape/linear.hpp"
+#include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
 #include "transfer/gridToParticle.hpp"
 #include "transfer/particleToGrid.hpp"
@@ -133,9 +134,11 @@ void velocityGradient(benchmark::State& run)
 
 BENCHMARK_TEMPLATE(weights, 2, shape::Linear);
 BENCHMARK_TEMPLATE(weights, 2, shape::UGIMP);
+BENCHMARK_TEMPLATE(weights, 2, shape::QuadraticBSpline);
 BENCHMARK_TEMPLATE(weights, 2, shape::CpGIMP);
 BENCHMARK_TEMPLATE(weights, 3, shape::Linear);
 BENCHMARK_TEMPLATE(weights, 3, shape::UGIMP);
+BENCHMARK_TEMPLATE(weights, 3, shape::QuadraticBSpline);
 BENCHMARK_TEMPLATE(weights, 3, shape::CpGIMP);
 BENCHMARK_TEMPLATE(recordsOfMomentum, 2);
 BENCHMARK_TEMPLATE(recordsOfMomentum, 3);

@@ -2,6 +2,7 @@
 /// A chunk of random particles and its weights, for tests of the transfer between particles and nodes.
 #include "shape/cpGIMP.hpp"
 #include "shape/linear.hpp"
+#include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
 #include "transfer/chunkColumns.hpp"
 #include "transfer/chunkWeights.hpp"
@@ -60,7 +61,7 @@ struct Cloud
             transfer::loadLanes(numbers(-10, 10).data(), count, column);
         transfer::loadLanesOrZero(numbers(10, 40).data(), count, mass);
         transfer::loadLanesOrZero(numbers(0.01, 0.02).data(), count, volume);
-        w.evaluate(x, half, grid);
+        w.evaluate(x, half, grid, {{{5}, {5}, {}}}); // walls between the cells, for shapes that know them
         REQUIRE(w.locate(window));
     }
 
@@ -145,6 +146,7 @@ void forShapes(Check&& check)
         CAPTURE(dim, count);
         check(Cloud<dim, shape::Linear>(count, 0.1, 0.5));
         check(Cloud<dim, shape::UGIMP>(count, 0.1, 0.5));
+        check(Cloud<dim, shape::QuadraticBSpline>(count, 0.1, 0.5));
         check(Cloud<dim, shape::CpGIMP>(count, 0.1, 0.5));
         check(Cloud<dim, shape::CpGIMP>(count, 0.5, 1)); // wider than a cell
     }
