@@ -1,6 +1,6 @@
 #pragma once
 /// Columns of one chunk, copied to and from aligned local arrays: a chunk may start anywhere in a column, and the last
-/// chunk of a tile may hold fewer than 64 particles.
+/// chunk of a tile may hold fewer than 64 particles. Verified in tests/unit/chunk.cpp.
 #include "base/record.hpp"
 #include "base/types.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Weights of one chunk in all axes, and the offset of each lane's first node in a box of nodes.
+/// Weights of one chunk in all axes, and the offset of each lane's first node in a box of nodes. Verified in
+/// tests/unit/chunk.cpp.
 #include "shape/axisWeights.hpp"
 #include "state/gridBox.hpp"
 #include "state/tileGrid.hpp"

@@ -9,14 +9,15 @@ template <int dim>
 void sortMoved(benchmark::State& run)
 {
     auto state = mpm::benchmark::seedColumn(dim, run.range(0));
-    mpm::stepping::sortByPosition(state, 3);
+    const mpm::state::TileLayout layout(state.grid);
+    mpm::stepping::sortByPosition(state, layout, 3);
     double move = 0.25 * state.grid.h;
     for (auto _ : run)
     {
         for (double& x : state.particles.x[0])
             x += move;
         move = -move;
-        mpm::stepping::sortByPosition(state, 3);
+        mpm::stepping::sortByPosition(state, layout, 3);
     }
     kernels::perParticle(run, state.particles.size());
 }
