@@ -30,10 +30,11 @@ struct UGIMP
             w.base[l] = std::int32_t(first);
             const double la = lambda[l], over = 0.5 / la;
             const double d = s - (first + 1); // from the middle node, |d| <= 1/2
-            const double top = d < -la ? -la : d > la ? la : d; // what of it lies under the rounded top
-            const double right = (la + top) * over, left = (la - top) * over, beyond = d - top;
-            w.N[0][l] = 0.5 * (la - top) * left + (beyond < 0 ? -beyond : 0.0);
-            w.N[2][l] = 0.5 * (la + top) * right + (beyond > 0 ? beyond : 0.0);
+            const double low = d > -la ? d : -la, top = low < la ? low : la; // what of it lies under the rounded top
+            const double right = (la + top) * over, left = (la - top) * over;
+            const double beyond = d - top, rightOf = beyond > 0 ? beyond : 0.0, leftOf = rightOf - beyond;
+            w.N[0][l] = 0.5 * (la - top) * left + leftOf;
+            w.N[2][l] = 0.5 * (la + top) * right + rightOf;
             w.N[1][l] = 1 - (w.N[0][l] + w.N[2][l]);
             w.G[0][l] = -invH * left;
             w.G[2][l] = invH * right;

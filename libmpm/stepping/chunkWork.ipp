@@ -182,7 +182,7 @@ void ExplicitStepper<dim, Shape>::withWeights(Workspace& ws, const Vectors& x, i
     if constexpr (Shape::followsStretch)
     {
         for (int a = 0; a < dim; ++a)
-            narrow = narrow && transfer::largest(ws.half[a]) <= 0.5;
+            narrow = narrow && transfer::allWithin(ws.half[a], 0, 0.5);
     }
     if (narrow)
     {

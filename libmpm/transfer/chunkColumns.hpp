@@ -55,6 +55,7 @@ inline double sumOfProducts(const Lanes& a, const Lanes& b)
     return sumOf(sum);
 }
 
+/// A NaN may hide other values: ask allWithin first where it matters.
 inline double largest(const Lanes& a)
 {
     Record most = load(a);
