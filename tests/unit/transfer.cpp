@@ -286,7 +286,7 @@ void checkLanesBeyondCount(const Cloud<dim, Shape>& c)
     const auto expected = project<What>(c, records);
     Cloud<dim, Shape> disturbed = c; // the offsets of these lanes stay those of the last particle, as if in its run
     auto* const numbers = reinterpret_cast<double*>(&records);
-    constexpr int width = sizeof(typename What::Node) / sizeof(double);
+    constexpr int width = dim == 2 ? sizeof(typename What::Node) / sizeof(double) : 4; // 3D: columns of half records
     for (std::size_t k = 0; k < sizeof(records) / sizeof(double); ++k)
         if (int(k / width) % lanes >= c.count)
             numbers[k] = std::numeric_limits<double>::quiet_NaN();
