@@ -118,7 +118,7 @@ class Storage(unittest.TestCase):
             if self.floats:
                 del file["provenance/storage"]  # as a build with doubles leaves it
             else:
-                file["provenance"].create_dataset("storage", data=other)
+                file["provenance"].create_dataset("storage", data=np.bytes_(other))
         page = self.run_utility(case, "mpmSolve")
         here = "float" if self.floats else "double"
         self.assertIn(f"computed with storage {other}, this is {here}: results are no longer bitwise", page)
