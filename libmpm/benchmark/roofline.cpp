@@ -54,20 +54,21 @@ struct SupportFlops
     double gradient() const { return flat() ? 4 * (n2 + n) * d : 4 * n3 * d + 6 * (n2 + n) * d; }
 };
 
-double countBytes(int dim, const ShapeCount& shape, StressUpdate update)
+/// r: size of the stored type over that of a double.
+double countBytes(int dim, const ShapeCount& shape, StressUpdate update, double r)
 {
     const double d = dim, s = stressComponents(dim), l = shape.domain ? d : 0;
-    double doubles = shape.follows ? 2 * d : 0;
+    double doubles = shape.follows ? 2 * d * r : 0;
     switch (update)
     {
     case StressUpdate::MUSL:
-        doubles += (3 * d + 1 + l) + (3 * d + 2 * d * d + 2 * s + 3.5 + l);
+        doubles += (d + 1 + r * (2 * d + l)) + (2 * d + 3.5 + r * (d + 2 * d * d + 2 * s + l));
         break;
     case StressUpdate::USL:
-        doubles += 4 * d + 2 * d * d + 2 * s + 3.5 + l;
+        doubles += 2 * d + 3.5 + r * (2 * d + 2 * d * d + 2 * s + l);
         break;
     case StressUpdate::USF:
-        doubles += (2 * d + 2 * d * d + 2 * s + 3.5 + l) + (4 * d + 1 + l);
+        doubles += (d + 3.5 + r * (d + 2 * d * d + 2 * s + l)) + (2 * d + 1 + r * (2 * d + l));
         break;
     }
     return 8 * doubles;
@@ -98,10 +99,12 @@ double countFlops(int dim, const ShapeCount& shape, StressUpdate update, double 
 }
 } // namespace
 
-Work countedWork(int dim, const std::string& shape, StressUpdate update, const std::string& law)
+Work countedWork(int dim, const std::string& shape, StressUpdate update, const std::string& law,
+                 std::size_t storedBytes)
 {
     const ShapeCount count = countOf(shape);
-    return {countBytes(dim, count, update), countFlops(dim, count, update, lawFlops(law, dim))};
+    return {countBytes(dim, count, update, double(storedBytes) / sizeof(double)),
+            countFlops(dim, count, update, lawFlops(law, dim))};
 }
 
 double rooflineSeconds(const Work& work, double triad, double fmaPeak)

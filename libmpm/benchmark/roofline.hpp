@@ -3,9 +3,9 @@
 ///
 ///     roofline time = max(bytes/triad, flops/fmaPeak)        share = roofline time/(time measured)
 ///
-/// BYTES are those of particle columns in doubles of 8 B: each column that a pass needs is read once and, if it
-/// changes, written once. A pass is a sweep over particles between two sweeps over nodes; the one that ends a step also
-/// makes the first projection of the next. Nodes, which caches can hold, what is kept from one pass to the next (new
+/// BYTES are those of particle columns in doubles of 8 B (v, F, sigma, l in floats of 4 B where they are stored so,
+/// state::Stored): each column that a pass needs is read once and, if it changes, written once. A pass is a sweep over
+/// particles between two sweeps over nodes; the one that ends a step also makes the first projection of the next. Nodes, which caches can hold, what is kept from one pass to the next (new
 /// positions) and what is moved for sorting are not counted: a step moves more than this list, never less. d: dimension,
 /// s: 4 or 6 stress components, l: d half lengths of the domain or 0 (linear, splines), M: the material's index, half a
 /// double.
@@ -49,8 +49,9 @@ struct Work
 };
 
 /// What is counted. shape: linear, uGIMP, cpGIMP, quadraticBSpline; law: linearElastic, mohrCoulomb. Throws InputError for a word the
-/// list does not have.
-Work countedWork(int dim, const std::string& shape, stepping::StressUpdate update, const std::string& law);
+/// list does not have. storedBytes: of v, F, sigma and l.
+Work countedWork(int dim, const std::string& shape, stepping::StressUpdate update, const std::string& law,
+                 std::size_t storedBytes = sizeof(state::Stored));
 
 /// Seconds a particle and step take at least. Rates in bytes and flops per second, of all threads together.
 double rooflineSeconds(const Work& work, double triad, double fmaPeak);

@@ -1,6 +1,7 @@
 #include "benchmark/rowTable.hpp"
 
 #include "base/terminal.hpp"
+#include "base/version.hpp"
 #include "stepping/timeStep.hpp"
 
 #include <cmath>
@@ -42,7 +43,7 @@ const Row* withOneThread(const std::vector<Row>& rows, const Row& row)
 std::vector<std::string> describe(const Row& row)
 {
     const Setting& s = row.setting;
-    return {std::to_string(s.dimension),
+    return {std::to_string(s.dimension) + (storage() == "double" ? "" : ", " + storage()),
             s.shape,
             stepping::stressUpdateName(s.stressUpdate),
             s.law,
@@ -94,7 +95,8 @@ std::string jsonOf(const std::vector<Row>& rows)
         text += fmt::format("{}\n    {{\"dimension\": {}, \"shape\": {}, \"stressUpdate\": {}, \"law\": {}, ",
                             &row == &rows[0] ? "" : ",", s.dimension, quoted(s.shape),
                             quoted(stepping::stressUpdateName(s.stressUpdate)), quoted(s.law));
-        text += fmt::format("\"real\": \"double\", \"particles\": {}, \"threads\": {}, ", row.particles, s.threads);
+        text += fmt::format("\"real\": {}, \"particles\": {}, \"threads\": {}, ", quoted(storage()), row.particles,
+                            s.threads);
         text += fmt::format("\"nsPerParticleStep\": {}, \"naiveNsPerParticleStep\": {}, \"bytesPerParticle\": {}, ",
                             number(1e9 * row.ours.median), row.naive ? number(1e9 * row.naive->median) : "null",
                             number(row.residentBytes));

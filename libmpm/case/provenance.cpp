@@ -7,6 +7,7 @@ namespace mpm::cases
 namespace
 {
 constexpr const char* word = "instructionSet";
+constexpr const char* storageWord = "storage";
 constexpr const char* separator = "; ";
 constexpr const char* since = " from step ";
 
@@ -16,7 +17,13 @@ std::string recorded(const state::State& state)
     return found == state.provenance.end() ? "" : found->second;
 }
 
-/// The set that computed the last step.
+std::string recordedStorage(const state::State& state)
+{
+    const auto found = state.provenance.find(storageWord);
+    return found == state.provenance.end() ? "double" : found->second;
+}
+
+/// What computed the last step.
 std::string last(const std::string& record)
 {
     const auto begin = record.rfind(separator);
@@ -43,6 +50,29 @@ std::string instructionSetNote(const state::State& state, const std::string& run
         return fmt::format("this state was computed with more than one instruction set ({})", before);
     return fmt::format("this state was computed with {}, this is {}: results are no longer bitwise those of one "
                        "instruction set",
+                       before, running);
+}
+
+void recordStorage(state::State& state, const std::string& running)
+{
+    const auto before = recordedStorage(state);
+    if (state.step == 0 || before == running)
+        state.provenance[storageWord] = running;
+    else if (last(before) != running)
+        state.provenance[storageWord] = fmt::format("{}{}{}{}{}", before, separator, running, since, state.step);
+    if (state.provenance[storageWord] == "double")
+        state.provenance.erase(storageWord);
+}
+
+std::string storageNote(const state::State& state, const std::string& running)
+{
+    const auto before = recordedStorage(state);
+    if (before == running || state.step == 0)
+        return "";
+    if (last(before) == running)
+        return fmt::format("this state was computed with more than one storage ({})", before);
+    return fmt::format("this state was computed with storage {}, this is {}: results are no longer bitwise those of "
+                       "one storage",
                        before, running);
 }
 } // namespace mpm::cases

@@ -4,6 +4,10 @@
 /// steps were computed with:
 ///     x86-64-v3
 ///     x86-64-v3; x86-64-v4 from step 250
+/// The same for what columns of particles are stored as (state::Stored), in an entry "storage" that a state computed
+/// with doubles alone does not have:
+///     float
+///     double; float from step 250
 ///
 /// Verified in tests/unit/provenance.cpp and by etc/compareInstructionSets.
 #include "state/state.hpp"
@@ -17,4 +21,8 @@ void recordInstructionSet(state::State& state, const std::string& running);
 
 /// What to tell a user who goes on from the state; empty if it was computed with the running set alone.
 std::string instructionSetNote(const state::State& state, const std::string& running);
+
+/// The same for the storage, "double" or "float".
+void recordStorage(state::State& state, const std::string& running);
+std::string storageNote(const state::State& state, const std::string& running);
 } // namespace mpm::cases

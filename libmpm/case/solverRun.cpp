@@ -107,7 +107,7 @@ std::vector<std::string> SolverRun::laterTimes(const TimeFolder& start) const
 void SolverRun::banner() const
 {
     const auto& s = scene_.scene;
-    fmt::print("mpmSolve, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), instructionSet());
+    fmt::print("mpmSolve, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), kernelText());
     line("case", std::filesystem::weakly_canonical(folder_.folder()).filename().string());
     line("particles",
          fmt::format("{} in {} dimensions, from time {}", state_.particles.size(), state_.particles.dim, lastStored_));
@@ -141,8 +141,9 @@ void SolverRun::banner() const
     line("stability", fmt::format("deltaT <= {:.4g} s (c_p deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
                                   limit_.courant, limit_.waveSpeed * stepSize() / state_.grid.h));
     line("threads", fmt::format("{}", options_.threadCount()));
-    if (const auto note = instructionSetNote(state_, instructionSet()); !note.empty())
-        line("note", note);
+    for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
+        if (!note.empty())
+            line("note", note);
 }
 
 void SolverRun::openOutput()
@@ -165,6 +166,7 @@ void SolverRun::openOutput()
     state_.provenance["revision"] = gitRevision();
     state_.provenance["compiler"] = compilerText() + ", " + compilerFlags();
     recordInstructionSet(state_, instructionSet());
+    recordStorage(state_, storage());
     state_.provenance["dictionaries"] = scene_.dictionaries;
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
     profile_.beginSteps(stepper_->times());

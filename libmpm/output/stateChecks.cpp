@@ -15,7 +15,7 @@ namespace
 template <int dim>
 double determinant(const state::Particles& p, std::size_t i)
 {
-    const auto F = [&](int row, int column) { return p.F[std::size_t(row * dim + column)][i]; };
+    const auto F = [&](int row, int column) -> double { return p.F[std::size_t(row * dim + column)][i]; };
     if constexpr (dim == 2)
         return F(0, 0) * F(1, 1) - F(0, 1) * F(1, 0);
     return F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) - F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
@@ -131,7 +131,7 @@ class Checker
                 for (Index l = 0; l < n; ++l)
                     bad |= !std::isfinite(columns[std::size_t(k)][std::size_t(first + l)]);
         };
-        const auto positive = [&](const state::Column<double>& column) {
+        const auto positive = [&](const auto& column) {
             for (Index l = 0; l < n; ++l)
             {
                 const double value = column[std::size_t(first + l)];
@@ -196,8 +196,8 @@ class Checker
         if (!(value > 0) || !std::isfinite(value))
             fail(i, fmt::format("{} is {}, allowed > 0", what, value));
     }
-    template <std::size_t n>
-    void finiteAll(const char* what, const std::array<state::Column<double>, n>& columns, int used, std::size_t i) const
+    template <class Columns>
+    void finiteAll(const char* what, const Columns& columns, int used, std::size_t i) const
     {
         for (int k = 0; k < used; ++k)
             if (!std::isfinite(columns[std::size_t(k)][i]))

@@ -19,28 +19,29 @@ constexpr const char* formatName = "libmpm state";
 constexpr Index formatVersion = 1;
 
 /// Columns side by side: row i holds column 0 to used - 1 of particle i.
-template <std::size_t n>
-RowFiller<double> interleaved(const std::array<state::Column<double>, n>& columns, int used)
+template <class T, std::size_t n>
+RowFiller<double> interleaved(const std::array<state::Column<T>, n>& columns, int used)
 {
     return [&columns, used](Index first, Index rows, double* out) {
         for (int k = 0; k < used; ++k)
         {
-            const double* column = columns[std::size_t(k)].data() + first;
+            const T* column = columns[std::size_t(k)].data() + first;
             for (Index i = 0; i < rows; ++i)
                 out[i * used + k] = column[i];
         }
     };
 }
 
-template <std::size_t n>
-RowTaker<double> dealTo(std::array<state::Column<double>, n>& columns, int used)
+/// Columns of floats take the nearest: what was written from them comes back as it was.
+template <class T, std::size_t n>
+RowTaker<double> dealTo(std::array<state::Column<T>, n>& columns, int used)
 {
     return [&columns, used](Index first, Index rows, const double* in) {
         for (int k = 0; k < used; ++k)
         {
-            double* column = columns[std::size_t(k)].data() + first;
+            T* column = columns[std::size_t(k)].data() + first;
             for (Index i = 0; i < rows; ++i)
-                column[i] = in[i * used + k];
+                column[i] = T(in[i * used + k]);
         }
     };
 }

@@ -9,7 +9,8 @@ namespace mpm::output
 namespace
 {
 /// Vectors of three floats, z = 0 in 2D.
-RowFiller<float> vectors(const std::array<state::Column<double>, 3>& columns, int dim)
+template <class T>
+RowFiller<float> vectors(const std::array<state::Column<T>, 3>& columns, int dim)
 {
     return [&columns, dim](Index first, Index rows, float* out) {
         for (int a = 0; a < 3; ++a)
@@ -33,7 +34,7 @@ RowFiller<float> cornersOf(const state::Particles& p)
                 continue;
             }
             const double* x = p.x[std::size_t(a)].data() + first / corners;
-            const double *F[dim], *length[dim];
+            const state::Stored *F[dim], *length[dim];
             for (int k = 0; k < dim; ++k)
             {
                 F[k] = p.F[std::size_t(a * dim + k)].data() + first / corners;

@@ -59,7 +59,7 @@ void Overburden::makeShares(const state::State& state, Index particle)
         double reach = 0;
         for (int a = 0; a < dim_; ++a)
         {
-            edge[k][std::size_t(a)] = p.F[std::size_t(a * dim_ + k)][i] * p.length0[std::size_t(k)][i];
+            edge[k][std::size_t(a)] = double(p.F[std::size_t(a * dim_ + k)][i]) * double(p.length0[std::size_t(k)][i]);
             if (a != up_)
                 reach += std::abs(edge[k][std::size_t(a)]);
         }

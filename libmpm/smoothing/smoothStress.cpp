@@ -46,6 +46,16 @@ void append(SmoothedStress& out, const std::vector<const double*>& columns, std:
             out.smoothed[from + c][i] = own[c];
     }
 }
+
+[[maybe_unused]] const double* asDoubles(const state::Column<double>& column, std::vector<std::vector<double>>&)
+{
+    return column.data();
+}
+
+[[maybe_unused]] const double* asDoubles(const state::Column<float>& column, std::vector<std::vector<double>>& copies)
+{
+    return copies.emplace_back(column.begin(), column.end()).data();
+}
 } // namespace
 
 SmoothedStress smoothColumns(const std::vector<const double*>& columns, const state::Particles& p,
@@ -74,8 +84,9 @@ SmoothedStress smoothColumns(const std::vector<const double*>& columns, const st
 SmoothedStress smoothStress(const state::Particles& p, const WeightTable& table)
 {
     std::vector<const double*> columns;
-    for (int c = 0; c < stressComponents(p.dim); ++c)
-        columns.push_back(p.stress[std::size_t(c)].data());
+    std::vector<std::vector<double>> widened; // of floats
+    for (std::size_t c = 0; c < std::size_t(stressComponents(p.dim)); ++c)
+        columns.push_back(asDoubles(p.stress[c], widened));
     return smoothColumns(columns, p, table);
 }
 } // namespace mpm::smoothing

@@ -25,7 +25,7 @@ Edges deformedEdges(const state::State& s, const Rule& rule, std::size_t i)
         double square = 0;
         for (int a = 0; a < p.dim; ++a)
         {
-            e.vector[k][a] = p.F[a * p.dim + k][i] * p.length0[k][i];
+            e.vector[k][a] = double(p.F[a * p.dim + k][i]) * double(p.length0[k][i]);
             square += e.vector[k][a] * e.vector[k][a];
         }
         const double longest = rule.threshold * s.seedSpacing[k];
@@ -50,8 +50,8 @@ bool anyLongEdge(const state::State& s, const Rule& rule, Index first)
     for (int k = 0; k < dim; ++k)
     {
         const double longest = rule.threshold * s.seedSpacing[std::size_t(k)], allowed = longest * longest;
-        const double* length = p.length0[std::size_t(k)].data() + first;
-        const double* F[dim];
+        const state::Stored* length = p.length0[std::size_t(k)].data() + first;
+        const state::Stored* F[dim];
         for (int a = 0; a < dim; ++a)
             F[a] = p.F[std::size_t(a * dim + k)].data() + first;
         double worst[8] = {};
@@ -60,7 +60,10 @@ bool anyLongEdge(const state::State& s, const Rule& rule, Index first)
             {
                 double square = 0;
                 for (int a = 0; a < dim; ++a)
-                    square += (F[a][l + i] * length[l + i]) * (F[a][l + i] * length[l + i]);
+                {
+                    const double edge = double(F[a][l + i]) * double(length[l + i]);
+                    square += edge * edge;
+                }
                 worst[i] = square > worst[i] ? square : worst[i];
             }
         for (const double square : worst)
@@ -117,7 +120,7 @@ double kineticEnergy(const state::Particles& p, std::size_t i)
 {
     double vv = 0;
     for (int a = 0; a < p.dim; ++a)
-        vv += p.v[a][i] * p.v[a][i];
+        vv += double(p.v[a][i]) * double(p.v[a][i]);
     return 0.5 * p.mass[i] * vv;
 }
 

@@ -42,7 +42,7 @@ void Particles::padLastChunk()
 
 void Particles::permute(const std::vector<Index>& order)
 {
-    std::tuple<Column<double>, Column<std::int64_t>, Column<std::int32_t>> scratch;
+    std::tuple<Column<double>, Column<float>, Column<std::int64_t>, Column<std::int32_t>> scratch;
     const Index* from = order.data();
     forEachColumn([&]<class T>(Column<T>& column) {
         auto& sorted = std::get<Column<T>>(scratch);

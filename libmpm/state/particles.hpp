@@ -14,6 +14,17 @@ namespace mpm::state
 template <class T>
 using Column = AlignedVector<T>;
 
+/// What velocity, stress, deformation gradient and initial lengths are stored as: the CMake option MPM_STORAGE, double
+/// or float. Floats halve what a pass reads and writes of them. All arithmetic is in doubles; positions, masses and
+/// volumes stay doubles, because positions change by far less than they are and mass and volume are conserved. A float
+/// has 24 bits: a strain increment below 3e-8 leaves F ~ 1 as it was (stresses follow increments down to 6e-8 of
+/// themselves).
+#ifdef MPM_STORAGE_FLOAT
+using Stored = float;
+#else
+using Stored = double;
+#endif
+
 struct Particles
 {
     explicit Particles(int dimension = 2);
@@ -21,12 +32,12 @@ struct Particles
     int dim = 2;
 
     std::array<Column<double>, 3> x;      ///< position of the centre [m]
-    std::array<Column<double>, 3> v;      ///< velocity [m/s]
-    std::array<Column<double>, 6> stress; ///< Cauchy stress, stressNames order [Pa]
-    std::array<Column<double>, 9> F;      ///< deformation gradient, dim x dim row by row [-]
+    std::array<Column<Stored>, 3> v;      ///< velocity [m/s]
+    std::array<Column<Stored>, 6> stress; ///< Cauchy stress, stressNames order [Pa]
+    std::array<Column<Stored>, 9> F;      ///< deformation gradient, dim x dim row by row [-]
     /// Lengths of the initial edge vectors [m]. The seeding lattice follows the axes, so edge k starts as
     /// l0_k = length0[k] e_k; the deformed edge is F l0_k = length0[k] times column k of F. Splitting halves it.
-    std::array<Column<double>, 3> length0;
+    std::array<Column<Stored>, 3> length0;
     Column<double> mass;             ///< [kg], per metre in 2D
     Column<double> volume0;          ///< initial volume [m^3], m^2 in 2D
     Column<double> volume;           ///< current volume V = V0 det F

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace mpm::stepping
 {
@@ -223,6 +224,7 @@ void ExplicitStepper<dim, Shape>::updateDomains(Workspace& ws, Index first, int 
     const auto& p = state_.particles;
     const double scale = 0.5 / state_.grid.h;
     constexpr double widest = Shape::followsStretch ? 1.0 : 0.5;
+    constexpr double rounding = std::is_same_v<state::Stored, double> ? 1e-12 : 1e-6; // of length0 and F
     alignas(64) double U[dim][lanes];
     if constexpr (Shape::followsStretch)
         constitutive::stretchDiagonal(ws.F, U);
@@ -234,7 +236,7 @@ void ExplicitStepper<dim, Shape>::updateDomains(Workspace& ws, Index first, int 
             double half = scale * ws.half[a][l];
             if constexpr (Shape::followsStretch)
                 half *= U[a][l];
-            const bool wide = half > widest * (1 + 1e-12);
+            const bool wide = half > widest * (1 + rounding);
             ws.sums.cappedDomains += wide && l < count;
             ws.half[a][l] = half > widest ? widest : half;
         }

@@ -130,8 +130,8 @@ class ExplicitStepper : public Stepper
 
     state::TileLayout layout_;
     state::TileGrid grid_;
-    std::array<state::Column<double>, 3> domain_; ///< half lengths over h, where they follow the stretch
-    std::array<state::Column<double>, 3> next_;   ///< positions at the end of the step, between two passes
+    std::array<state::Column<state::Stored>, 3> domain_; ///< half lengths over h, where they follow the stretch
+    std::array<state::Column<double>, 3> next_;          ///< positions at the end of the step, between two passes
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread

@@ -296,7 +296,10 @@ double ExplicitStepper<dim, Shape>::largestSpeed() const
     {
         double vv = 0;
         for (int a = 0; a < dim; ++a)
-            vv += state_.particles.v[a][std::size_t(i)] * state_.particles.v[a][std::size_t(i)];
+        {
+            const double v = state_.particles.v[a][std::size_t(i)];
+            vv += v * v;
+        }
         fastest = std::max(fastest, vv);
     }
     return std::sqrt(fastest);

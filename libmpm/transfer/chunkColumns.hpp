@@ -1,11 +1,12 @@
 #pragma once
 /// Columns of one chunk, copied to and from aligned local arrays: a chunk may start anywhere in a column, and the last
-/// chunk of a tile may hold fewer than 64 particles. Verified in tests/unit/chunk.cpp.
+/// chunk of a tile may hold fewer than 64 particles. Columns hold doubles or floats (state::Stored), the arrays
+/// doubles. Verified in tests/unit/chunk.cpp and chunkColumns.cpp.
 #include "base/record.hpp"
 #include "base/types.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <type_traits>
 
 namespace mpm::transfer
 {
@@ -17,32 +18,44 @@ class Prefetch
 {
   public:
     void clear() { count_ = 0; }
-    void add(const double* column) { columns_[count_++] = column; }
+    /// 64 doubles are two pieces of four lines, 64 floats are one.
+    template <class T>
+    void add(const T* column)
+    {
+        constexpr int perPiece = 256 / sizeof(T);
+        for (int from = 0; from < lanes; from += perPiece)
+            pieces_[count_++] = {reinterpret_cast<const char*>(column + from), sizeof(T)};
+    }
     /// From now on, ask for the 64 particles from `first` on.
     void begin(Index first)
     {
         first_ = first;
-        half_ = 0;
+        next_ = 0;
     }
-    /// Asks for the next half column, four lines.
+    /// Asks for the next piece, four lines.
     void some()
     {
-        if (half_ == 2 * count_)
+        if (next_ == count_)
             return;
-        const double* line = columns_[half_ / 2] + first_ + half_ % 2 * 32;
-        ++half_;
+        const Piece& piece = pieces_[next_++];
+        const char* line = piece.column + first_ * piece.size;
         for (int k = 0; k < 4; ++k)
-            __builtin_prefetch(line + 8 * k);
+            __builtin_prefetch(line + 64 * k);
     }
-    void some(int halves)
+    void some(int pieces)
     {
-        for (; halves > 0; --halves)
+        for (; pieces > 0; --pieces)
             some();
     }
 
   private:
-    const double* columns_[40];
-    unsigned count_ = 0, half_ = 0;
+    struct Piece
+    {
+        const char* column;
+        Index size; ///< of an element
+    };
+    Piece pieces_[80];
+    unsigned count_ = 0, next_ = 0;
     Index first_ = 0;
 };
 
@@ -92,7 +105,8 @@ inline bool allWithin(const Lanes& a, double low, double high)
 }
 
 /// out = column[0 .. count), repeated from the last value on, so that all lanes hold numbers kernels can work with.
-inline void loadLanes(const double* column, int count, Lanes& out)
+template <class T>
+void loadLanes(const T* column, int count, Lanes& out)
 {
     if (count == lanes)
     {
@@ -100,24 +114,31 @@ inline void loadLanes(const double* column, int count, Lanes& out)
             out[l] = column[l];
         return;
     }
-    std::memcpy(out, column, std::size_t(count) * sizeof(double));
+    std::copy_n(column, count, out);
     std::fill(out + count, out + lanes, column[count - 1]);
 }
 
 /// The same with zero in the lanes beyond: masses and volumes, so that sums over all lanes are those of the particles.
-inline void loadLanesOrZero(const double* column, int count, Lanes& out)
+template <class T>
+void loadLanesOrZero(const T* column, int count, Lanes& out)
 {
     loadLanes(column, count, out);
     for (int l = count; l < lanes; ++l)
         out[l] = 0;
 }
 
-inline void storeLanes(double* column, int count, const Lanes& in)
+/// column = in. What a column of floats cannot hold is taken from `in` as well: what follows in a pass works with the
+/// numbers that a pass of its own, or a restart, would load.
+template <class T>
+void storeLanes(T* column, int count, Lanes& in)
 {
+    if constexpr (!std::is_same_v<T, double>)
+        for (int l = 0; l < lanes; ++l)
+            in[l] = T(in[l]);
     if (count == lanes)
         for (int l = 0; l < lanes; ++l)
-            column[l] = in[l];
+            column[l] = T(in[l]);
     else
-        std::copy_n(in, count, column);
+        std::transform(in, in + count, column, [](double value) { return T(value); });
 }
 } // namespace mpm::transfer

@@ -178,6 +178,12 @@ TEST_CASE("Counted bytes and flops")
     CHECK(countedWork(2, "cpGIMP", StressUpdate::MUSL, "mohrCoulomb").bytes == 8 * 40.5);
     CHECK(countedWork(2, "uGIMP", StressUpdate::USF, "mohrCoulomb").bytes == 8 * 36.5);
 
+    // floats for v, F, sigma, l: 6 + 20 of the 36.5 are half as large; 4 more of cpGIMP; 22; 18 + 4 of linear USF
+    CHECK(countedWork(2, "uGIMP", StressUpdate::MUSL, "mohrCoulomb", 4).bytes == 8 * 36.5 - 4 * 26);
+    CHECK(countedWork(2, "cpGIMP", StressUpdate::MUSL, "mohrCoulomb", 4).bytes == 8 * 40.5 - 4 * 30);
+    CHECK(countedWork(2, "uGIMP", StressUpdate::USL, "mohrCoulomb", 4).bytes == 8 * 29.5 - 4 * 22);
+    CHECK(countedWork(2, "linear", StressUpdate::USF, "mohrCoulomb", 4).bytes == 8 * 32.5 - 4 * 22);
+
     // 2D uGIMP: weights 46, records 5, projection 63 + 84, a 48, gradient 96, v* 48, motion 13, kinematics 99, law
     // 104; MUSL adds 2 + 42 of the second projection and 10 for the work of strain
     const auto musl = countedWork(2, "uGIMP", StressUpdate::MUSL, "mohrCoulomb").flops;

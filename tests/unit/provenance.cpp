@@ -46,6 +46,34 @@ TEST_CASE("another instruction set is recorded with its first step, and told")
     CHECK(entry(state) == "x86-64-v3; native (znver3, avx512) from step 250; x86-64-v3 from step 300");
 }
 
+TEST_CASE("another storage of columns is recorded with its first step, and told; doubles alone need no word")
+{
+    state::State state(2);
+    cases::recordStorage(state, "double");
+    state.step = 250;
+    CHECK(cases::storageNote(state, "double").empty());
+    cases::recordStorage(state, "double");
+    CHECK(state.provenance.count("storage") == 0);
+
+    CHECK_THAT(cases::storageNote(state, "float"),
+               Contains("computed with storage double, this is float") && Contains("no longer bitwise"));
+    cases::recordStorage(state, "float");
+    CHECK(state.provenance.at("storage") == "double; float from step 250");
+    CHECK_THAT(cases::storageNote(state, "float"), Contains("more than one storage"));
+    state.step = 300;
+    cases::recordStorage(state, "float");
+    CHECK(state.provenance.at("storage") == "double; float from step 250");
+    cases::recordStorage(state, "double");
+    CHECK(state.provenance.at("storage") == "double; float from step 250; double from step 300");
+
+    state.step = 0; // nothing was computed yet
+    CHECK(cases::storageNote(state, "float").empty());
+    cases::recordStorage(state, "float");
+    CHECK(state.provenance.at("storage") == "float");
+    state.step = 10;
+    CHECK(cases::storageNote(state, "float").empty());
+}
+
 TEST_CASE("nothing was computed before the first step")
 {
     state::State state(2);

@@ -49,7 +49,7 @@ int main(int argc, char** argv)
         const auto json = options.value("json");
         if (!json.empty())
             requireWritable(json);
-        fmt::print("benchmarkStep, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), instructionSet());
+        fmt::print("benchmarkStep, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), kernelText());
         benchmark::Bench bench;
         std::vector<benchmark::Row> rows;
         for (const auto& setting : settings)

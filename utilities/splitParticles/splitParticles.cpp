@@ -44,9 +44,12 @@ int main(int argc, char** argv)
                 break;
         fmt::print("splitParticles: time {}: {} particles become {}; {} splits put off at walls, {} refused by caps\n",
                    times[0].name, before, state.particles.size(), state.ledger.splitsPutOff, state.ledger.splitsCapped);
-        if (const auto note = cases::instructionSetNote(state, instructionSet()); !note.empty())
-            fmt::print("  note: {}\n", note);
+        for (const auto& note :
+             {cases::instructionSetNote(state, instructionSet()), cases::storageNote(state, storage())})
+            if (!note.empty())
+                fmt::print("  note: {}\n", note);
         cases::recordInstructionSet(state, instructionSet());
+        cases::recordStorage(state, storage());
         if (options.dryRun)
             return 0;
         if (options.has("target"))

@@ -1,0 +1,130 @@
+"""Particle columns in floats (MPM_STORAGE=float) against columns in doubles: the collapsing column's first 0.25 s.
+
+    storage.py [Storage.test_name ...]      MPM_BUILD_DIR names the build (default: build/)
+
+The numbers of DOUBLES were computed by a build with doubles, which runs this script too: they cannot go stale.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from history import Table
+from reproducibility import content
+
+PROJECT = Path(__file__).resolve().parents[2]
+BINARIES = Path(os.environ.get("MPM_BUILD_DIR") or PROJECT / "build").resolve() / "bin"
+COLUMN = PROJECT / "cases" / "collapsingSoilColumn"
+END = "0.25"
+
+# Last row of history.csv: crest and toes [m], kinetic energy [J].
+DOUBLES = {"maxY": 7.688863829903591, "minX": -0.07384806375807881, "maxX": 4.073848063758073, "kineticEnergy": 31361.50668550708}
+PLACES = 1e-7  # [m] of crest and toes; found 1e-8
+ENERGY = 1e-7  # relative; found 3e-9
+
+
+class Storage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        version = subprocess.run([BINARIES / "mpmSolve", "-version"], check=True, text=True, capture_output=True).stdout
+        cls.floats = "storage float" in version
+        cls.seeded = cls.folder / "seeded"
+        cls.seeded.mkdir()
+        for part in ("geometry", "constant", "system"):
+            shutil.copytree(COLUMN / part, cls.seeded / part)
+        cls.set(cls.seeded, "system/controlDict", "endTime", END)
+        cls.set(cls.seeded, "system/controlDict", "writeInterval", "0.125")
+        cls.run_utility(cls.seeded, "seedParticles")
+
+    @staticmethod
+    def set(case, file, word, value):
+        path = case / file
+        text, count = re.subn(rf"(?m)^(\s*{word}\s+)[^;]*;", rf"\g<1>{value};", path.read_text())
+        assert count == 1, f"{word} in {file}"
+        path.write_text(text)
+
+    @classmethod
+    def fresh(cls, name):
+        shutil.copytree(cls.seeded, cls.folder / name)
+        return cls.folder / name
+
+    @staticmethod
+    def run_utility(case, name, *options):
+        return subprocess.run([BINARIES / name, *options], cwd=case, check=True, text=True, stdout=subprocess.PIPE,
+                              stdin=subprocess.DEVNULL, timeout=600).stdout
+
+    def test_the_numbers_of_doubles(self):
+        case = self.fresh("numbers")
+        page = self.run_utility(case, "mpmSolve")
+        self.assertEqual(self.floats, ", storage float)" in page)
+        history = Table(case)
+        self.assertAlmostEqual(history["time"][-1], float(END), delta=1e-12)
+        for name in ("maxY", "minX", "maxX"):
+            with self.subTest(name):
+                self.assertAlmostEqual(history.last(name), DOUBLES[name], delta=PLACES)
+        self.assertAlmostEqual(history.last("kineticEnergy") / DOUBLES["kineticEnergy"], 1, delta=ENERGY)
+        self.assertLess(np.abs(history["residual"]).max() / history.last("gravityWork"), 0.01)
+        self.assertLess(np.abs(history["mass"] / history["mass"][0] - 1).max(), 1e-15)
+
+    def test_the_file_holds_doubles(self):
+        case = self.fresh("file")
+        self.run_utility(case, "mpmSolve")
+        with h5py.File(case / END / "state.h5") as file:
+            for name in ("position", "velocity", "stress", "deformationGradient", "length0", "mass"):
+                values = file[f"particles/{name}"][()]
+                self.assertEqual(values.dtype, np.float64)
+                if name in ("position", "velocity", "stress", "deformationGradient"):
+                    rounded = (values == values.astype(np.float32)).all()
+                    self.assertEqual(rounded, self.floats and name != "position", name)
+            self.assertEqual("storage" in file["provenance"], self.floats)
+            if self.floats:
+                self.assertEqual(file["provenance/storage"][()].decode(), "float")
+
+    def test_restart_and_threads_are_bitwise_with_every_scheme(self):
+        """One pass after another in the caches must see what a restart reads: columns of floats are rounded at once."""
+        for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
+            for update in ("MUSL", "USL", "USF"):
+                with self.subTest(shape=shape, update=update):
+                    whole = self.fresh(f"{shape}{update}")
+                    self.set(whole, "system/mpmSchemes", "shape", shape)
+                    self.set(whole, "system/mpmSchemes", "stressUpdate", update)
+                    self.set(whole, "system/controlDict", "deltaT", "5e-4")
+                    again = whole.with_name(f"{shape}{update}Again")
+                    shutil.copytree(whole, again)
+                    self.run_utility(whole, "mpmSolve", "-threads", "1")
+                    shutil.rmtree(again / "0")
+                    shutil.copytree(whole / "0.125", again / "0.125")
+                    self.run_utility(again, "mpmSolve", "-threads", "2")
+                    found, expected = content(again / END / "state.h5"), content(whole / END / "state.h5")
+                    self.assertEqual(set(found), set(expected))
+                    self.assertEqual([name for name in expected if found[name] != expected[name]], [])
+
+    def test_another_storage_is_told(self):
+        case = self.fresh("other")
+        self.run_utility(case, "mpmSolve")
+        other = "double" if self.floats else "float"
+        shutil.rmtree(case / "0")
+        shutil.rmtree(case / END)
+        with h5py.File(case / "0.125" / "state.h5", "r+") as file:
+            if self.floats:
+                del file["provenance/storage"]  # as a build with doubles leaves it
+            else:
+                file["provenance"].create_dataset("storage", data=np.bytes_(other))
+        page = self.run_utility(case, "mpmSolve")
+        here = "float" if self.floats else "double"
+        self.assertIn(f"computed with storage {other}, this is {here}: results are no longer bitwise", page)
+        with h5py.File(case / END / "state.h5") as file:
+            self.assertEqual(file["provenance/storage"][()].decode(), f"{other}; {here} from step 125")
+
+
+if __name__ == "__main__":
+    unittest.main()
