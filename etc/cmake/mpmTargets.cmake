@@ -34,5 +34,6 @@ function(mpm_test name)
     target_compile_definitions(${name} PRIVATE MPM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MPM_BUILD_DIR="${PROJECT_BINARY_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     get_filename_component(label ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-    catch_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label})
+    # threads that wait sleep: tests run side by side
+    catch_discover_tests(${name} TEST_PREFIX "${name}:" PROPERTIES LABELS ${label} ENVIRONMENT OMP_WAIT_POLICY=passive)
 endfunction()

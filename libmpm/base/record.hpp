@@ -63,8 +63,8 @@ MPM_INLINE R splat(double x)
         return R{x, x, x, x};
 }
 
-/// The same address, of which the compiler no longer knows how it was made. Left to itself g++ addresses each of the 9 or
-/// 27 nodes of a support from the window's start and spends more on that than on the arithmetic.
+/// The same address, of which the compiler no longer knows how it was made. Left to itself g++ addresses each of the 9
+/// or 27 nodes of a support from the window's start and spends more on that than on the arithmetic.
 template <class T>
 MPM_INLINE T* opaque(T* address)
 {
@@ -83,7 +83,8 @@ MPM_INLINE Record join(const HalfRecord& low, const HalfRecord& high)
     for (int p = 0; p < parts; ++p)
     {
         r.part[p] = reinterpret_cast<std::add_pointer_t<const std::remove_reference_t<decltype(r.part[0])>>>(&low)[p];
-        r.part[parts + p] = reinterpret_cast<std::add_pointer_t<const std::remove_reference_t<decltype(r.part[0])>>>(&high)[p];
+        r.part[parts + p] =
+            reinterpret_cast<std::add_pointer_t<const std::remove_reference_t<decltype(r.part[0])>>>(&high)[p];
     }
     return r;
 #endif

@@ -13,8 +13,8 @@ std::string gitRevision();
 std::string compilerText();
 /// Build type and the flags given to the compiler, kernels' flags included: "Release: -O3 -march=native ...".
 std::string compilerFlags();
-/// What the running kernels were compiled for: "x86-64-v2", "x86-64-v3" (AVX2, FMA) or "x86-64-v4" (AVX-512) of a portable
-/// build, "native (znver4)" with the compiler's name of the machine it was built on, or the processor family.
+/// What the running kernels were compiled for: "x86-64-v2", "x86-64-v3" (AVX2, FMA) or "x86-64-v4" (AVX-512) of a
+/// portable build, "native (znver4)" with the compiler's name of the machine it was built on, or the processor family.
 std::string instructionSet();
 /// What most particle columns are stored as (state::Stored, the CMake option MPM_STORAGE): "double" or "float".
 std::string storage();

@@ -149,7 +149,8 @@ splitting::Rule columnSplitting()
     return rule;
 }
 
-double columnDeltaT(stepping::Stepper& stepper, const state::State& state, const stepping::Scene& scene, bool ignoresMass)
+double columnDeltaT(stepping::Stepper& stepper, const state::State& state, const stepping::Scene& scene,
+                    bool ignoresMass)
 {
     const auto limit = stepping::stabilityLimit(stepper, state, scene, ignoresMass);
     return std::min(caseCourant * state.grid.h / limit.waveSpeed, 0.9 * limit.deltaT);

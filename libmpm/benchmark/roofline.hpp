@@ -5,10 +5,10 @@
 ///
 /// BYTES are those of particle columns in doubles of 8 B (v, F, sigma, l in floats of 4 B where they are stored so,
 /// state::Stored): each column that a pass needs is read once and, if it changes, written once. A pass is a sweep over
-/// particles between two sweeps over nodes; the one that ends a step also makes the first projection of the next. Nodes, which caches can hold, what is kept from one pass to the next (new
-/// positions) and what is moved for sorting are not counted: a step moves more than this list, never less. d: dimension,
-/// s: 4 or 6 stress components, l: d half lengths of the domain or 0 (linear, splines), M: the material's index, half a
-/// double.
+/// particles between two sweeps over nodes; the one that ends a step also makes the first projection of the next.
+/// Nodes, which caches can hold, what is kept from one pass to the next (new positions) and what is moved for sorting
+/// are not counted: a step moves more than this list, never less. d: dimension, s: 4 or 6 stress components, l: d half
+/// lengths of the domain or 0 (linear, splines), M: the material's index, half a double.
 ///
 ///     MUSL   accelerate       read x v m l               write v          3d + 1 + l
 ///            strain, project  read x v m F sigma V0 M l  write x F sigma V    3d + 2d^2 + 2s + 3.5 + l
@@ -28,9 +28,9 @@
 ///     interpolation of c columns            2D 2 (n^2 + n) c        3D 2 (n^3 + n^2 + n) c
 ///     gradient of a vector                  2D 4 (n^2 + n) d        3D 4 n^3 d + 6 (n^2 + n) d
 ///     m v and V sigma: d and 3 or 6; v += dt a and its energy, x += dt v: 6d + 1; work of strain 2s + 2 (not USL)
-///     dt D, exp(dt L) F, dR sigma dR^T, det F, V:   2D 4 + 63 + 28 + 3 + 1      3D 9 + 220 + 112 + 14 + 1 (small steps)
-///     domains of cpGIMP: 2D 22, 3D 1029
-///     linearElastic: 2D 14, 3D 18; mohrCoulomb: 2D 104, 3D 339 (constitutive/, all operations of one lane)
+///     dt D, exp(dt L) F, dR sigma dR^T, det F, V:   2D 4 + 63 + 28 + 3 + 1      3D 9 + 220 + 112 + 14 + 1 (small
+///     steps) domains of cpGIMP: 2D 22, 3D 1029 linearElastic: 2D 14, 3D 18; mohrCoulomb: 2D 104, 3D 339
+///     (constitutive/, all operations of one lane)
 ///
 /// MUSL projects mass, momentum and forces, then momentum again; interpolates a, v* and grad w. USL: a, grad v* and
 /// the outermost sums of v*, 2 n d (the others are those of the gradient). USF projects mass and momentum, then
@@ -48,8 +48,8 @@ struct Work
     double bytes = 0, flops = 0; ///< of one particle and step
 };
 
-/// What is counted. shape: linear, uGIMP, cpGIMP, quadraticBSpline; law: linearElastic, mohrCoulomb. Throws InputError for a word the
-/// list does not have. storedBytes: of v, F, sigma and l.
+/// What is counted. shape: linear, uGIMP, cpGIMP, quadraticBSpline; law: linearElastic, mohrCoulomb. Throws InputError
+/// for a word the list does not have. storedBytes: of v, F, sigma and l.
 Work countedWork(int dim, const std::string& shape, stepping::StressUpdate update, const std::string& law,
                  std::size_t storedBytes = sizeof(state::Stored));
 

@@ -42,8 +42,8 @@ template <class R>
     MPM_UNROLL
     for (int i = 0; i < 3; ++i)
         MPM_UNROLL
-        for (int j = 0; j < 3; ++j)
-            out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    for (int j = 0; j < 3; ++j)
+        out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
 }
 
 template <class R>
@@ -141,7 +141,7 @@ void advance3(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
         for (int k = 0; k < 9; ++k)
             a[k] = dt * load(L[k] + g);
         exponential3<isSmall>(a, e);
-        const Record volume = 1 + expMinusOne<isSmall ? 5 : 13>(a[0] + a[4] + a[8]);
+        const Record volume = 1 + expMinusOne < isSmall ? 5 : 13 > (a[0] + a[4] + a[8]);
         const Record factor = 1 + (volume / determinant3(e) - 1) * (1.0 / 3);
         for (int k = 0; k < 9; ++k)
             f[k] = load(F[k] + g);
@@ -275,10 +275,9 @@ void stretchDiagonal(const TensorLanes<3>& F, double (&U)[3][lanes])
             r[k] = f[k] = load(F[k] + group);
         for (int step = 0; step < 9; ++step)
         {
-            const Record cof[9] = {
-                r[4] * r[8] - r[5] * r[7], r[5] * r[6] - r[3] * r[8], r[3] * r[7] - r[4] * r[6],
-                r[2] * r[7] - r[1] * r[8], r[0] * r[8] - r[2] * r[6], r[1] * r[6] - r[0] * r[7],
-                r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3]};
+            const Record cof[9] = {r[4] * r[8] - r[5] * r[7], r[5] * r[6] - r[3] * r[8], r[3] * r[7] - r[4] * r[6],
+                                   r[2] * r[7] - r[1] * r[8], r[0] * r[8] - r[2] * r[6], r[1] * r[6] - r[0] * r[7],
+                                   r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3]};
             const Record over = 1 / (r[0] * cof[0] + r[1] * cof[1] + r[2] * cof[2]);
             Record rr{}, ii{};
             for (int k = 0; k < 9; ++k)

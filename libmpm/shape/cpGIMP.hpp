@@ -39,7 +39,8 @@ struct CpGIMP
                 const double sign = n < 2 ? 1.0 : -1.0;
                 const double d = n < 2 ? t + (1 - n) : (n - 1) - t;
                 const double a = d - la, end = d + la, b = end < 1 ? end : 1;
-                const double room = 1 - a, narrower = room < 2 * la ? room : 2 * la, width = narrower > 0 ? narrower : 0;
+                const double room = 1 - a, narrower = room < 2 * la ? room : 2 * la,
+                             width = narrower > 0 ? narrower : 0;
                 const bool right = a >= 0;
                 const double q = right ? (a + b) * width : a * a + b * b;
                 w.N[n][l] = (width - 0.5 * q) * half;

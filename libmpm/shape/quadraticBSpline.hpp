@@ -1,12 +1,12 @@
 #pragma once
-/// Quadratic B-splines centred on nodes (Steffen, Kirby & Berzins 2008, doi 10.1002/nme.2360): with t = (x_p - x_i)/h from
-/// the nearest node, |t| <= 1/2,
+/// Quadratic B-splines centred on nodes (Steffen, Kirby & Berzins 2008, doi 10.1002/nme.2360): with t = (x_p - x_i)/h
+/// from the nearest node, |t| <= 1/2,
 ///     N = (1/2 - t)^2/2, 3/4 - t^2, (1/2 + t)^2/2     at the nodes i - 1, i, i + 1
 /// Slopes are continuous, so particles cross cells without a jump of force. Particles are points.
 ///
 /// At a wall the spline is folded: where the nearest node lies on the wall's plane, the value at the node behind is
-/// taken as u_{-1} = 2 u_0 - u_1, which leaves hats, N = 1 - |t|, |t| on that half cell. Values there are interpolated by
-/// the wall's own nodes, linear fields are kept, and the slope stays continuous at half a cell.
+/// taken as u_{-1} = 2 u_0 - u_1, which leaves hats, N = 1 - |t|, |t| on that half cell. Values there are interpolated
+/// by the wall's own nodes, linear fields are kept, and the slope stays continuous at half a cell.
 ///
 ///     shape   quadraticBSpline;      // mpmSchemes
 ///

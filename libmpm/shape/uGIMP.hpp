@@ -29,7 +29,7 @@ struct UGIMP
             const double first = std::floor(s - 0.5);
             w.base[l] = std::int32_t(first);
             const double la = lambda[l], over = 0.5 / la;
-            const double d = s - (first + 1); // from the middle node, |d| <= 1/2
+            const double d = s - (first + 1);                                // from the middle node, |d| <= 1/2
             const double low = d > -la ? d : -la, top = low < la ? low : la; // what of it lies under the rounded top
             const double right = (la + top) * over, left = (la - top) * over;
             const double beyond = d - top, rightOf = beyond > 0 ? beyond : 0.0, leftOf = rightOf - beyond;

@@ -113,9 +113,8 @@ void TileGrid::findBlocks()
                 for (Index i = low[0]; i <= high[0]; ++i)
                     overlaps.push_back({layout.boxKey({i, j, k}), Index(t)});
     }
-    std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
-        return a.key != b.key ? a.key < b.key : a.tile < b.tile;
-    });
+    std::sort(overlaps.begin(), overlaps.end(),
+              [](const Overlap& a, const Overlap& b) { return a.key != b.key ? a.key < b.key : a.tile < b.tile; });
     blocks_.clear();
     std::size_t records = 0;
     for (std::size_t o = 0; o < overlaps.size();)
@@ -163,8 +162,8 @@ Record* TileGrid::find(Index i, Index j, Index k)
     for (int a = 0; a < layout.dim(); ++a)
         box[a] = layout.box(node[a]);
     const Index key = layout.boxKey(box);
-    const auto found =
-        std::lower_bound(blocks_.begin(), blocks_.end(), key, [](const Block& b, Index wanted) { return b.key < wanted; });
+    const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), key,
+                                        [](const Block& b, Index wanted) { return b.key < wanted; });
     if (found == blocks_.end() || found->key != key || !found->box.contains(i, j, k))
         return nullptr;
     return nodes(*found) + found->box.offset(i, j, k);

@@ -73,18 +73,18 @@ struct NodeBox
 
 struct Tile
 {
-    Index first = 0, count = 0;    ///< its particles
-    NodeBox window;                ///< nodes they may reach
-    std::size_t start = 0;         ///< of the window in the windows' memory, in records
-    std::vector<Index> blocks;     ///< blocks its window overlaps
+    Index first = 0, count = 0; ///< its particles
+    NodeBox window;             ///< nodes they may reach
+    std::size_t start = 0;      ///< of the window in the windows' memory, in records
+    std::vector<Index> blocks;  ///< blocks its window overlaps
 };
 
 struct Block
 {
     Index key = 0;
     NodeBox box;
-    std::size_t start = 0;         ///< of its nodes in the nodes' memory
-    std::vector<Index> tiles;      ///< tiles whose windows overlap it, ascending
+    std::size_t start = 0;    ///< of its nodes in the nodes' memory
+    std::vector<Index> tiles; ///< tiles whose windows overlap it, ascending
 };
 
 class TileGrid
@@ -123,8 +123,11 @@ class TileGrid
             const Tile& tile = tiles_[std::size_t(t)];
             const Index i0 = std::max(block.box.lo[0], tile.window.lo[0]);
             const Index i1 = std::min(block.box.lo[0] + block.box.n[0], tile.window.lo[0] + tile.window.n[0]);
-            if (i0 < i1 && tile.window.contains(i0, j, k))
-                add(i0, i1, window<R>(tile) + tile.window.offset(i0, j, k));
+            if (i0 >= i1 || !tile.window.contains(i0, j, k))
+                continue;
+            const R* row = window<R>(tile) + tile.window.offset(i0, j, k);
+            prefetch(row + tile.window.n[0], i1 - i0);
+            add(i0, i1, row);
         }
     }
 
@@ -141,6 +144,7 @@ class TileGrid
                 {
                     const Record* from = nodes(block) + block.box.offset(both.lo[0], j, k);
                     R* to = out + tile.window.offset(both.lo[0], j, k);
+                    prefetch(from + block.box.n[0], both.n[0]);
                     for (Index i = 0; i < both.n[0]; ++i)
                         to[i] = repack(from[i]);
                 }
@@ -152,6 +156,13 @@ class TileGrid
     const Record* find(Index i, Index j, Index k) const { return const_cast<TileGrid*>(this)->find(i, j, k); }
 
   private:
+    /// Asks for the next row while one is worked on.
+    template <class R>
+    static void prefetch(const R* row, Index count)
+    {
+        for (Index i = 0; i < count; i += 64 / sizeof(R))
+            __builtin_prefetch(row + i);
+    }
     void findTiles(const Particles& particles, int below, int above);
     void findBlocks();
 

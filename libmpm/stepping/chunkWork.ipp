@@ -165,6 +165,7 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
         for (int k = 0; k < dim * dim; ++k)
             ahead.add(p.F[k].data());
         ahead.add(p.volume0.data());
+        ahead.add(p.material.data());
     }
     if (pass.strain || pass.then == Project::forces)
     {

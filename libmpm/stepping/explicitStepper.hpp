@@ -44,11 +44,11 @@ class ExplicitStepper : public Stepper
     /// What one pass over the particles does, in this order.
     struct Pass
     {
-        bool velocity = false;  ///< v += dt a, and new positions x + dt v*
-        bool reproject = false; ///< project m v of the updated particles with the weights of the old positions
-        bool strain = false;    ///< velocity gradient, F, V and stress
-        int gradientLane = 1;   ///< node lanes strains are taken from: 1: v*, 1 + dim: w
-        bool moves = false;     ///< the new positions take effect
+        bool velocity = false;           ///< v += dt a, and new positions x + dt v*
+        bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions
+        bool strain = false;             ///< velocity gradient, F, V and stress
+        int gradientLane = 1;            ///< node lanes strains are taken from: 1: v*, 1 + dim: w
+        bool moves = false;              ///< the new positions take effect
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
     };
 

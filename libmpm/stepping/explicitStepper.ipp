@@ -58,8 +58,7 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     case StressUpdate::USL:
         solveNodes(dt);
         moveSurfaces(dt);
-        particlePass(
-            dt, {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
+        particlePass(dt, {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);

@@ -116,11 +116,12 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
     Clock clock(times_.nodal);
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-        grid_.template forEachWindow<HalfRecord>(block, row.j, row.k, [&](Index begin, Index end, const HalfRecord* in) {
-            HalfRecord* out = sum + (begin - row.begin);
-            for (Index i = 0; i < end - begin; ++i)
-                out[i] += in[i];
-        });
+        grid_.template forEachWindow<HalfRecord>(block, row.j, row.k,
+                                                 [&](Index begin, Index end, const HalfRecord* in) {
+                                                     HalfRecord* out = sum + (begin - row.begin);
+                                                     for (Index i = 0; i < end - begin; ++i)
+                                                         out[i] += in[i];
+                                                 });
         row.dt = dt;
         for (Index i = row.begin; i < row.end; ++i)
         {

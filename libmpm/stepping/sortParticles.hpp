@@ -1,6 +1,6 @@
 #pragma once
-/// Order of the particles in memory: by (key, id). The key (state::TileLayout) stands for the tile and the first node of
-/// the shape's support, so neighbours in memory share nodes, and the order depends on the state alone (METHOD,
+/// Order of the particles in memory: by (key, id). The key (state::TileLayout) stands for the tile and the first node
+/// of the shape's support, so neighbours in memory share nodes, and the order depends on the state alone (METHOD,
 /// Reproducibility). supportNodes below: nodes per axis of the shape.
 #include "state/state.hpp"
 #include "state/tileGrid.hpp"

@@ -3,9 +3,9 @@
 ///     m_i = sum m_p N_ip,   p_i = sum m_p v_p N_ip,   f_i = - sum V_p sigma_p . gradN_ip
 /// Shape functions are products over axes, and so are the terms of these sums. Which factor an axis contributes, N or
 /// its gradient G, can then depend on the lane of a record: in 2D the record (m, p_x, p_y, s_xx, s_xy, s_xy, s_yy),
-/// s = -V sigma, is multiplied by (N N N G G N N) of the x axis and (N N N N N G G) of the y axis; the two halves of the
-/// force are added when windows are summed (finishNode). Lanes of a run share the first node (particles are sorted),
-/// so the run is summed in registers and added to memory once.
+/// s = -V sigma, is multiplied by (N N N G G N N) of the x axis and (N N N N N G G) of the y axis; the two halves of
+/// the force are added when windows are summed (finishNode). Lanes of a run share the first node (particles are
+/// sorted), so the run is summed in registers and added to memory once.
 ///
 /// Verified in tests/unit/transfer.cpp against sums over pairs of particles and nodes.
 #include "transfer/chunkWeights.hpp"
@@ -73,7 +73,7 @@ struct ParticleRecords<2, Forces>
         for (int g = 0; g < lanes; g += 8)
         {
             const Record m = load(mass + g), minusV = -load(volume + g), shear = minusV * load(stress[3] + g);
-            Record t[8] = {m,     m * load(v[0] + g),         m * load(v[1] + g), minusV * load(stress[0] + g), shear,
+            Record t[8] = {m,     m * load(v[0] + g),          m * load(v[1] + g), minusV * load(stress[0] + g), shear,
                            shear, minusV * load(stress[1] + g)};
             transpose(t);
             for (int l = 0; l < 8; ++l)
@@ -294,8 +294,7 @@ inline Record finishNode(const Record& r)
     if constexpr (dim == 3)
         return r;
     else
-        return shuffle<0, 1, 2, 3, 4, 8, 8, 8>(r, Record{}) +
-               shuffle<8, 8, 8, 5, 6, 8, 8, 8>(r, Record{});
+        return shuffle<0, 1, 2, 3, 4, 8, 8, 8>(r, Record{}) + shuffle<8, 8, 8, 5, 6, 8, 8, 8>(r, Record{});
 }
 /// A summed half record -> (m, p, 0).
 template <int dim>

@@ -190,7 +190,8 @@ TEST_CASE("Counted bytes and flops")
     CHECK(musl == 46 + 5 + 63 + 84 + 48 + 96 + 48 + 13 + 99 + 104 + 2 + 42 + 10);
     CHECK(countedWork(2, "uGIMP", StressUpdate::USL, "mohrCoulomb").flops == musl - 54 - 36);
     CHECK(countedWork(2, "uGIMP", StressUpdate::MUSL, "linearElastic").flops == musl - 90);
-    for (const char* shape : {"linear", "uGIMP", "cpGIMP", "quadraticBSpline"}) // the list knows every shape and law there is
+    for (const char* shape :
+         {"linear", "uGIMP", "cpGIMP", "quadraticBSpline"}) // the list knows every shape and law there is
         for (const auto& law : constitutive::lawCatalogue())
             CHECK(countedWork(3, shape, StressUpdate::USF, law.name).flops > 0);
     CHECK_THROWS_AS(countedWork(2, "hexagon", StressUpdate::USL, "mohrCoulomb"), InputError);

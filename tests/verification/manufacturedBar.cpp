@@ -28,8 +28,7 @@ class BarForce : public stepping::BodyForce
 {
   public:
     BarForce(double A, std::vector<double> X) : A_(A), X_(std::move(X)) {}
-    void acceleration(const state::Particles& p, Index first, int count, double t,
-                      double (&b)[3][lanes]) const override
+    void acceleration(const state::Particles& p, Index first, int count, double t, double (&b)[3][lanes]) const override
     {
         for (int l = 0; l < count; ++l)
         {

@@ -82,10 +82,14 @@ TEST_CASE("critical Courant numbers of the step and the solver's bounds")
         double delta, massFraction, usl, musl;
     };
     // basis, shift, smallest nodal mass fraction, critical c_p dt/h for USL and for MUSL and USF (1D, spectral radius)
-    const std::vector<Row> rows = {{"linear", 0, 0.5, 0.75, 1.73},     {"linear", 0.24, 0.26, 0.67, 1.44},
-                                   {"linear", 0.26, 5e-3, 0.14, 1.43}, {"linear", 0.4, 7.5e-2, 0.52, 1.68},
-                                   {"uGIMP", 0, 0.5, 0.75, 1.73},      {"uGIMP", 0.1, 5e-3, 0.65, 1.88},
-                                   {"uGIMP", 0.3, 4.5e-2, 0.70, 1.96}, {"uGIMP", 0.49, 0.12, 0.66, 1.75},
+    const std::vector<Row> rows = {{"linear", 0, 0.5, 0.75, 1.73},
+                                   {"linear", 0.24, 0.26, 0.67, 1.44},
+                                   {"linear", 0.26, 5e-3, 0.14, 1.43},
+                                   {"linear", 0.4, 7.5e-2, 0.52, 1.68},
+                                   {"uGIMP", 0, 0.5, 0.75, 1.73},
+                                   {"uGIMP", 0.1, 5e-3, 0.65, 1.88},
+                                   {"uGIMP", 0.3, 4.5e-2, 0.70, 1.96},
+                                   {"uGIMP", 0.49, 0.12, 0.66, 1.75},
                                    {"quadraticBSpline", 0, 1.56e-2, 0.88, 2.30},
                                    {"quadraticBSpline", 0.249, 2.5e-7, 0.69, 2.17},
                                    {"quadraticBSpline", 0.2, 6.25e-4, 0.74, 2.22}};

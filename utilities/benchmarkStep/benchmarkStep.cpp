@@ -43,7 +43,8 @@ int main(int argc, char** argv)
         "B/particle  resident memory of the run; columns: that of the state alone\n"
         "yielding    particles on the yield surface\n"
         "\n"
-        "Threads spin for some microseconds where they wait, then sleep; OMP_WAIT_POLICY in the environment decides instead.";
+        "Threads spin for some microseconds where they wait, then sleep; OMP_WAIT_POLICY in the environment decides "
+        "instead.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const auto settings = benchmark::readSettings(options);
         const auto json = options.value("json");
