@@ -26,6 +26,7 @@ VARIANTS = {
     "USF": (schemes(stressUpdate="USF"), 1),
     "USL, deltaT 0.75 ms": ({**schemes(stressUpdate="USL"), "system/controlDict": {"deltaT": "7.5e-4"}}, 1),
     "cpGIMP": (schemes(shape="cpGIMP"), 1),
+    "quadraticBSpline": (schemes(shape="quadraticBSpline"), 1),
     "linear": (schemes(shape="linear"), 1),
     "picRate 0": (schemes(picRate="0"), 1),
     "no splitting": (noSplitting, 1),
