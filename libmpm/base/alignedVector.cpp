@@ -72,6 +72,15 @@ class Pool
         free_.emplace(begin, bytes);
     }
 
+    void trim()
+    {
+#ifdef MADV_DONTNEED
+        const std::lock_guard lock(mutex_);
+        for (const auto& [begin, size] : free_)
+            madvise(begin, size, MADV_DONTNEED);
+#endif
+    }
+
   private:
     std::mutex mutex_;
     std::map<char*, std::size_t> free_; ///< pieces by address
@@ -119,6 +128,11 @@ void* allocateAligned(std::size_t bytes)
     char* memory = header.block + shift;
     *reinterpret_cast<Header*>(memory - line) = header;
     return memory;
+}
+
+void trimAligned()
+{
+    pool().trim();
 }
 
 void freeAligned(void* memory) noexcept

@@ -11,6 +11,8 @@ namespace mpm
 /// Memory on a 64-byte boundary; throws std::bad_alloc.
 void* allocateAligned(std::size_t bytes);
 void freeAligned(void* memory) noexcept;
+/// Gives the memory of freed arrays back to the system, which costs their pages when they are wanted again.
+void trimAligned();
 
 template <class T>
 struct AlignedAllocator

@@ -1,5 +1,6 @@
 #include "benchmark/measureRow.hpp"
 
+#include "base/alignedVector.hpp"
 #include "base/clock.hpp"
 #include "benchmark/naiveStepper.hpp"
 #include "benchmark/peaks.hpp"
@@ -26,6 +27,7 @@ constexpr double lastTime = 0.75; ///< [s] the collapse slows down after it
 double residentBytes()
 {
     malloc_trim(0);
+    trimAligned();
     double pages = 0, resident = 0;
     std::ifstream("/proc/self/statm") >> pages >> resident;
     return resident * double(sysconf(_SC_PAGESIZE));

@@ -7,8 +7,8 @@
 /// between 0.5 and 0.75 s of the collapse: small columns go back to 0.5 s in between, which is not timed.
 ///
 /// Memory: resident set (/proc/self/statm) after the blocks less that before the column was made, over particles; free
-/// memory is given back to the system before both (malloc_trim). It holds state, stepper and their temporary copies
-/// that stay allocated, not those of a sort.
+/// memory is given back to the system before both (malloc_trim, trimAligned). It holds state, stepper and their
+/// temporary copies that stay allocated, not those of a sort.
 ///
 /// The naive step is timed on the same column with one thread; its blocks are three, of at least three steps.
 #include "benchmark/column.hpp"
