@@ -194,7 +194,7 @@ Row Bench::measure(const Setting& setting)
     row.work = countedWork(setting.dimension, setting.shape, setting.stressUpdate, setting.law);
     row.triad = peaks(setting.threads).triad;
     row.fmaPeak = peaks(setting.threads).fma;
-    if (setting.naive)
+    if (setting.naive && naiveKnows(setting.shape))
         row.naive = naive(setting, size);
     columns_.collapsed({size.dim, size.across, 0}); // in the cache before memory is looked at
 

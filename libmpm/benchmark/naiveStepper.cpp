@@ -282,6 +282,11 @@ std::unique_ptr<NaiveStepper> make(const std::string& shape, const state::State&
 }
 } // namespace
 
+bool naiveKnows(const std::string& shape)
+{
+    return shape == "linear" || shape == "uGIMP" || shape == "cpGIMP";
+}
+
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene)
 {

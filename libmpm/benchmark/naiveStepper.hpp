@@ -29,6 +29,9 @@ class NaiveStepper
     virtual void store(state::State& state) const = 0;
 };
 
+/// Shapes the naive step has: linear, uGIMP, cpGIMP.
+bool naiveKnows(const std::string& shape);
+
 /// shape: linear, uGIMP or cpGIMP. Throws InputError for what the step leaves out.
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene);

@@ -51,6 +51,12 @@ class BenchmarkStep(unittest.TestCase):
         self.assertIsNone(row["naiveNsPerParticleStep"])  # the naive step does not split
         self.assertEqual(row["law"], "linearElastic")
 
+    def test_shape_without_naive_step(self):
+        self.run_utility("-quick", "-particles", "800", "-shape", "quadraticBSpline", "-json", "rows.json")
+        row, = json.loads((self.folder / "rows.json").read_text())
+        self.assertIsNone(row["naiveNsPerParticleStep"])
+        self.assertGreater(row["nsPerParticleStep"], 0)
+
     def test_wrong_options(self):
         for options, says in [(["-shape", "ugimp"], "did you mean 'uGIMP'"), (["-dimension", "4"], "allowed 2 or 3"),
                               (["-particles", "many"], "7200, 115k or 1.04M"), (["-thread", "2"], "'-threads'"),

@@ -35,7 +35,7 @@ int main(int argc, char** argv)
         "ns          per particle and step: median of blocks, fastest and slowest; the energy budget of every 100th "
         "step\n"
         "            is in it\n"
-        "naive       an array of structures and plain loops over particle-node pairs, one thread\n"
+        "naive       an array of structures and plain loops over particle-node pairs, one thread (not for splines)\n"
         "speedup     against the row with one thread\n"
         "GB/s, GF/s  bytes and flops of a fixed list (libmpm/benchmark/roofline.hpp) over the time\n"
         "triad, fma  what this machine reaches with these threads: a = b + s c in memory [GB/s], multiply-adds [GF/s]\n"
