@@ -78,7 +78,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     loadDomains(ws, first, count);
 
     if (pass.velocity || pass.strain)
-        withWeights(ws, ws.x, count, [&](auto& w) {
+        withWeights(ws, ws.x, [&](auto& w) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
             if (pass.velocity)
@@ -111,8 +111,8 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         for (int a = 0; a < dim; ++a)
             transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
     const Vectors& x = pass.moves ? ws.xNew : ws.x;
-    checkInside(ws, x, count);
-    withWeights(ws, x, count, [&](auto& w) {
+    checkInside(ws, x);
+    withWeights(ws, x, [&](auto& w) {
         const bool reached = w.locate(tile.window);
         lap(ws, &PassTimes::weights);
         ws.sums.stray = ws.sums.stray || !reached;
@@ -178,7 +178,7 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
 /// Weights at x by the shape, or by its narrow form where no domain of the chunk needs more nodes.
 template <int dim, class Shape>
 template <class Body>
-void ExplicitStepper<dim, Shape>::withWeights(Workspace& ws, const Vectors& x, int, Body&& body) const
+void ExplicitStepper<dim, Shape>::withWeights(Workspace& ws, const Vectors& x, Body&& body) const
 {
     bool narrow = true;
     if constexpr (Shape::followsStretch)
@@ -248,7 +248,7 @@ void ExplicitStepper<dim, Shape>::updateDomains(Workspace& ws, Index first, int 
 
 /// Particles outside the grid, or nowhere, are strays too.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x, int) const
+void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x) const
 {
     for (int a = 0; a < dim; ++a)
         if (!transfer::allWithin(x[a], state_.grid.origin[a], state_.grid.upper(a)))

@@ -87,8 +87,11 @@ class ExplicitStepper : public Stepper
 
     // passes
     void arrange();
+    void sortAnew();
     void buildTiles();
     void project();
+    template <class Node>
+    void sumWindows(const nodal::NodeRow<dim>& row, const state::Block& block, Node* sum);
     template <class What>
     void sumNodes(nodal::NodeRow<dim>& row, const state::Block& block);
     void solveNodes(double dt);
@@ -102,15 +105,13 @@ class ExplicitStepper : public Stepper
     void passOverChunk(Workspace& ws, const state::Tile& tile, Index first, int count, double dt, const Pass& pass);
     void listColumns(transfer::Prefetch& ahead, const Pass& pass) const;
     template <class Body>
-    void withWeights(Workspace& ws, const Vectors& x, int count, Body&& body) const;
+    void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     void advanceVelocity(Workspace& ws, Index first, int count, double dt);
     void updateStress(Workspace& ws, Index first, int count, double dt);
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
     void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
-    void checkInside(Workspace& ws, const Vectors& x, int count) const;
-    template <class S, class What>
-    void projectAll(Workspace& ws, const Weights<S>& w, const state::Tile& tile, Index first, int count);
+    void checkInside(Workspace& ws, const Vectors& x) const;
     static void lap(Workspace& ws, double PassTimes::*part);
 
     void applyWalls(nodal::NodeRow<dim>& row) const;

@@ -88,16 +88,20 @@ void ExplicitStepper<dim, Shape>::arrange()
         }
     }
     if (state_.step % scene_.sortInterval == 0 || stray_)
-    {
-        Clock clock(times_.sort);
-        sortByPosition(state_, layout_, Narrow::nodes);
-        arranged_ = false;
-    }
-    if (!arranged_)
+        sortAnew();
+    else if (!arranged_)
     {
         Clock clock(times_.sort);
         buildTiles();
     }
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::sortAnew()
+{
+    Clock clock(times_.sort);
+    sortByPosition(state_, layout_, Narrow::nodes);
+    buildTiles();
 }
 
 template <int dim, class Shape>
@@ -121,7 +125,7 @@ void ExplicitStepper<dim, Shape>::buildTiles()
         for (Index first = 0; first < p.size(); first += lanes)
         {
             const int count = int(std::min<Index>(lanes, p.size() - first));
-            for (int k = 0; k < dim * dim; ++k)
+            for (int k = 0; k < dim * dim && Shape::followsStretch; ++k)
                 transfer::loadLanes(p.F[k].data() + first, count, ws->F[k]);
             updateDomains(*ws, first, count);
         }
@@ -140,7 +144,7 @@ void ExplicitStepper<dim, Shape>::project()
         particlePass(0, {.then = what});
     if (stray_) // particles have moved on since they were sorted
     {
-        arrange();
+        sortAnew();
         particlePass(0, {.then = what});
         if (stray_)
             failOutside();

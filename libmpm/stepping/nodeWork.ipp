@@ -40,6 +40,18 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
     }
 }
 
+/// sum[i - row.begin] += the records of node i in the windows of all tiles, in the order of the tiles.
+template <int dim, class Shape>
+template <class Node>
+void ExplicitStepper<dim, Shape>::sumWindows(const nodal::NodeRow<dim>& row, const state::Block& block, Node* sum)
+{
+    grid_.template forEachWindow<Node>(block, row.j, row.k, [&](Index begin, Index end, const Node* in) {
+        Node* out = sum + (begin - row.begin);
+        for (Index i = 0; i < end - begin; ++i)
+            out[i] += in[i];
+    });
+}
+
 /// The row's nodes: (m, p, f) summed over the windows of tiles.
 template <int dim, class Shape>
 template <class What>
@@ -47,11 +59,7 @@ void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state
 {
     using Node = typename What::Node;
     Node sum[1 << state::TileLayout::bitsOf(dim)] = {};
-    grid_.template forEachWindow<Node>(block, row.j, row.k, [&](Index begin, Index end, const Node* in) {
-        Node* out = sum + (begin - row.begin);
-        for (Index i = 0; i < end - begin; ++i)
-            out[i] += in[i];
-    });
+    sumWindows(row, block, sum);
     for (Index i = row.begin; i < row.end; ++i)
         row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
@@ -116,12 +124,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
     Clock clock(times_.nodal);
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-        grid_.template forEachWindow<HalfRecord>(block, row.j, row.k,
-                                                 [&](Index begin, Index end, const HalfRecord* in) {
-                                                     HalfRecord* out = sum + (begin - row.begin);
-                                                     for (Index i = 0; i < end - begin; ++i)
-                                                         out[i] += in[i];
-                                                 });
+        sumWindows(row, block, sum);
         row.dt = dt;
         for (Index i = row.begin; i < row.end; ++i)
         {
