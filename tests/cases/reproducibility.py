@@ -5,22 +5,16 @@
 The scene is the collapsing column with an early, busy splitting, so that particle numbers change on the way.
 """
 
-import os
-import re
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
+from columnCase import BINARIES, ColumnCase
 
-PROJECT = Path(__file__).resolve().parents[2]
-BINARIES = Path(os.environ.get("MPM_BUILD_DIR") or PROJECT / "build").resolve() / "bin"
-COLUMN = PROJECT / "cases" / "collapsingSoilColumn"
 END = "1"
 
 
@@ -37,40 +31,14 @@ def content(path):
     return held
 
 
-class Reproducibility(unittest.TestCase):
+class Reproducibility(ColumnCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
-        cls.seeded = cls.folder / "seeded"
-        cls.seeded.mkdir()
-        for part in ("geometry", "constant", "system"):
-            shutil.copytree(COLUMN / part, cls.seeded / part)
-        cls.set(cls.seeded, "system/controlDict", "endTime", END)
-        cls.set(cls.seeded, "system/mpmSchemes", "threshold", "1.3")
-        cls.run_utility(cls.seeded, "seedParticles")
+        super().setUpClass()
+        cls.seed(endTime=("system/controlDict", END), threshold=("system/mpmSchemes", "1.3"))
         cls.whole = cls.fresh("whole")
         cls.run_utility(cls.whole, "mpmSolve")
         cls.expected = content(cls.whole / END / "state.h5")
-
-    @staticmethod
-    def set(case, file, word, value):
-        """Gives the entry that begins a line with this word another value."""
-        path = case / file
-        text, count = re.subn(rf"(?m)^(\s*{word}\s+)[^;]*;", rf"\g<1>{value};", path.read_text())
-        assert count == 1, f"{word} in {file}"
-        path.write_text(text)
-
-    @classmethod
-    def fresh(cls, name):
-        shutil.copytree(cls.seeded, cls.folder / name)
-        return cls.folder / name
-
-    @staticmethod
-    def run_utility(case, name, *options):
-        subprocess.run([BINARIES / name, *options], cwd=case, check=True, stdout=subprocess.DEVNULL,
-                       stdin=subprocess.DEVNULL, timeout=600)
 
     def assert_same(self, case):
         found = content(case / END / "state.h5")

@@ -5,22 +5,16 @@
 The numbers of DOUBLES were computed by a build with doubles, which runs this script too: they cannot go stale.
 """
 
-import os
-import re
 import shutil
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
+from columnCase import BINARIES, ColumnCase
 from history import Table
 from reproducibility import content
 
-PROJECT = Path(__file__).resolve().parents[2]
-BINARIES = Path(os.environ.get("MPM_BUILD_DIR") or PROJECT / "build").resolve() / "bin"
-COLUMN = PROJECT / "cases" / "collapsingSoilColumn"
 END = "0.25"
 
 # Last row of history.csv: crest and toes [m], kinetic energy [J].
@@ -29,38 +23,13 @@ PLACES = 1e-7  # [m] of crest and toes; found 1e-8
 ENERGY = 1e-7  # relative; found 3e-9
 
 
-class Storage(unittest.TestCase):
+class Storage(ColumnCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
+        super().setUpClass()
         version = subprocess.run([BINARIES / "mpmSolve", "-version"], check=True, text=True, capture_output=True).stdout
         cls.floats = "storage float" in version
-        cls.seeded = cls.folder / "seeded"
-        cls.seeded.mkdir()
-        for part in ("geometry", "constant", "system"):
-            shutil.copytree(COLUMN / part, cls.seeded / part)
-        cls.set(cls.seeded, "system/controlDict", "endTime", END)
-        cls.set(cls.seeded, "system/controlDict", "writeInterval", "0.125")
-        cls.run_utility(cls.seeded, "seedParticles")
-
-    @staticmethod
-    def set(case, file, word, value):
-        path = case / file
-        text, count = re.subn(rf"(?m)^(\s*{word}\s+)[^;]*;", rf"\g<1>{value};", path.read_text())
-        assert count == 1, f"{word} in {file}"
-        path.write_text(text)
-
-    @classmethod
-    def fresh(cls, name):
-        shutil.copytree(cls.seeded, cls.folder / name)
-        return cls.folder / name
-
-    @staticmethod
-    def run_utility(case, name, *options):
-        return subprocess.run([BINARIES / name, *options], cwd=case, check=True, text=True, stdout=subprocess.PIPE,
-                              stdin=subprocess.DEVNULL, timeout=600).stdout
+        cls.seed(endTime=("system/controlDict", END), writeInterval=("system/controlDict", "0.125"))
 
     def test_the_numbers_of_doubles(self):
         case = self.fresh("numbers")
