@@ -16,7 +16,7 @@ namespace
 constexpr std::size_t line = 64, page = 4096, hugePage = std::size_t(1) << 21;
 
 /// A step reads thirty columns side by side; with pages of 4 KB each of them costs a look in the page table every 512
-/// particles. Huge pages are a wish: without them everything works, some 15 % slower.
+/// particles. Huge pages are a wish: without them everything works, some 10 % slower.
 char* allocateHuge(std::size_t bytes)
 {
     const std::size_t whole = (bytes + hugePage - 1) / hugePage * hugePage;
