@@ -6,6 +6,8 @@
 #include "base/record.hpp"
 #include "base/types.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace mpm::nodal
@@ -18,9 +20,11 @@ struct NodeSums
     double gravityWork = 0;                  ///< sum dt m b . (v_i + v*)/2 [J]
     double tractionWork = 0;                 ///< sum dt f_tau . (v_i + v*)/2 [J]
     double frictionLoss = 0;                 ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double forceWorkBefore = 0;              ///< sum dt f . v_i over the projected forces [J]
     double forceWork = 0;                    ///< sum dt f . v* over the projected forces [J]
     double wallLoss = 0;                     ///< the same for every other wall impulse J [J]
     Index contacts = 0;                      ///< nodes at which a friction wall pressed
+    double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
 
     NodeSums& operator+=(const NodeSums& o)
@@ -31,8 +35,10 @@ struct NodeSums
         tractionWork += o.tractionWork;
         frictionLoss += o.frictionLoss;
         wallLoss += o.wallLoss;
+        forceWorkBefore += o.forceWorkBefore;
         forceWork += o.forceWork;
         contacts += o.contacts;
+        lightest = std::min(lightest, o.lightest);
         for (int a = 0; a < 3; ++a)
         {
             gravityImpulse[a] += o.gravityImpulse[a];
@@ -136,19 +142,25 @@ template <int dim>
 void endRow(NodeRow<dim>& row, double inverseDt)
 {
     using Lanes = NodeLanes<dim>;
-    Record kinetic{}, work{};
+    Record kinetic{}, work{}, before{};
+    double lightest = row.sums->lightest;
     for (Index i = row.begin; i < row.end; ++i)
     {
         Record& r = row.node[i];
         kinetic += r[0] * (r * r);
-        work += (*row.projected)[std::size_t(i - row.begin)] * r;
+        const Record& projected = (*row.projected)[std::size_t(i - row.begin)];
+        work += projected * r;
+        before += Lanes::toVelocity(projected) * r;
+        lightest = row.carries(i) ? std::min(lightest, r[0]) : lightest;
     }
     for (int a = 0; a < dim; ++a)
     {
         row.sums->kineticBefore += 0.5 * kinetic[row.velocity + a];
         row.sums->kineticAfter += 0.5 * kinetic[row.trial + a];
         row.sums->forceWork += row.dt * work[row.trial + a];
+        row.sums->forceWorkBefore += row.dt * before[row.velocity + a];
     }
+    row.sums->lightest = lightest;
     if (!row.walls->pushed.empty())
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)

@@ -105,20 +105,22 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
 }
 
 template <int dim>
-double Traction<dim>::book(double dt, double& work, Vector3& impulse) const
+std::pair<double, double> Traction<dim>::book(double dt, double& work, Vector3& impulse) const
 {
-    double end = 0;
+    double start = 0, end = 0;
     for (const auto& add : added_)
     {
         const Record& r = *add.node;
         for (int a = 0; a < dim; ++a)
         {
-            end += dt * add.force[a] * r[1 + a];
-            work += dt * add.force[a] * (r[1 + a] - 0.5 * dt * r[1 + dim + a]);
+            const double after = dt * add.force[a] * r[1 + a], change = dt * dt * add.force[a] * r[1 + dim + a];
+            end += after;
+            start += after - change;
+            work += after - 0.5 * change;
             impulse[a] += dt * add.force[a];
         }
     }
-    return end;
+    return {start, end};
 }
 
 template <int dim>

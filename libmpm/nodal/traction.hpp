@@ -26,8 +26,8 @@ class Traction
     void scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::TileGrid& nodes,
                  double smallestMass);
     /// After the nodal equations (lanes v*, a): adds the work sum dt f . (v_i + v*)/2 [J] and the impulse [N s] of the
-    /// load; returns sum dt f . v*.
-    double book(double dt, double& work, Vector3& impulse) const;
+    /// load; returns sum dt f . v_i and sum dt f . v*.
+    std::pair<double, double> book(double dt, double& work, Vector3& impulse) const;
     const Load& load() const { return load_; }
 
   private:

@@ -15,7 +15,10 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallLoss", ledger.wallLoss, "J");
     visit("splitMergeLoss", ledger.splitMergeLoss, "J");
     visit("transferLoss", ledger.transferLoss, "J");
-    visit("pendingForceWork", ledger.pendingForceWork, "J");
+    visit("pendingWork", ledger.pendingWork, "J");
+    visit("staggering", ledger.staggering, "J");
+    visit("initialStaggering", ledger.initialStaggering, "J");
+    visit("volumeWork", ledger.volumeWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
@@ -34,7 +37,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 31 * 8,
+    static_assert(sizeof(state::Ledger) == 34 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

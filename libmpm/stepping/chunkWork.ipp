@@ -22,6 +22,20 @@ double workOfStrain(const constitutive::Chunk<dim>& chunk, const double (&volume
     return transfer::sumOfProducts(volume, density);
 }
 
+/// Elastic energy density 1/2 sigma : C^-1 : sigma in every lane.
+template <int dim>
+void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&bulk)[lanes], const double (&shear)[lanes],
+                   double (&energy)[lanes])
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        double sigma[stressSize<dim>];
+        for (int k = 0; k < stressSize<dim>; ++k)
+            sigma[k] = chunk.stress[k][l];
+        energy[l] = constitutive::elasticEnergyDensity<dim>(sigma, bulk[l], shear[l]);
+    }
+}
+
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::lap(Workspace& ws, double PassTimes::*part)
 {
@@ -276,6 +290,9 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
     }
     ws.sums.kinetic += 0.5 * transfer::sumOfProducts(ws.mass, vv);
+    ws.sums.fastest = std::max(ws.sums.fastest, transfer::largest(vv));
+    for (int a = 0; a < dim; ++a)
+        ws.sums.momentum[std::size_t(a)] += transfer::sumOfProducts(ws.mass, ws.v[a]);
     if (scene_.bodyForce)
     {
         alignas(64) double b[3][lanes];
@@ -303,11 +320,11 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     for (int k = 0; k < stressSize<dim>; ++k)
         transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
     constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
-    if (scene_.stressUpdate != StressUpdate::USL)
-    {
-        transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
-        sums.strainWork += workOfStrain(chunk, ws.volume);
-    }
+    transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
+    sums.strainWorkBefore += workOfStrain(chunk, ws.volumeBefore);
+    loadModuli(ws, first, count);
+    alignas(64) double energyBefore[lanes], energy[lanes];
+    elasticEnergy(chunk, ws.bulk, ws.shear, energyBefore);
     ws.ahead.some(4);
     constitutive::advanceDeformation(ws.L, dt, ws.F);
     ws.ahead.some(4);
@@ -335,12 +352,40 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     for (int k = 0; k < stressSize<dim>; ++k)
         transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
 
-    sums.plasticWork += transfer::sumOfProducts(ws.volume, chunk.plasticWork);
+    alignas(64) double stiffJ[lanes];
+    for (int l = 0; l < lanes; ++l)
+        stiffJ[l] = chunk.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
+    sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
+    sums.strainWork += workOfStrain(chunk, ws.volume);
+    elasticEnergy(chunk, ws.bulk, ws.shear, energy);
+    sums.strainEnergy += transfer::sumOfProducts(ws.volume, energy);
+    for (int l = 0; l < lanes; ++l)
+    {
+        energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * (ws.volume[l] - ws.volumeBefore[l]);
+        ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
+    }
+    sums.volumeWork += transfer::sumOfLanes(energyBefore);
+    sums.plasticWork += transfer::sumOfProducts(ws.volumeBefore, chunk.plasticWork);
     sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
     sums.apexReturns += chunk.apexReturns;
     sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
     if constexpr (Shape::followsStretch)
         updateDomains(ws, first, count);
+}
+
+/// K and G of each lane's material; ones beyond the particles.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int count) const
+{
+    const std::int32_t* material = state_.particles.material.data() + first;
+    std::fill_n(ws.bulk, lanes, moduli_[std::size_t(material[0])][0]);
+    std::fill_n(ws.shear, lanes, moduli_[std::size_t(material[0])][1]);
+    for (int l = 1; l < count; ++l)
+        if (material[l] != material[0])
+        {
+            ws.bulk[l] = moduli_[std::size_t(material[l])][0];
+            ws.shear[l] = moduli_[std::size_t(material[l])][1];
+        }
 }
 
 /// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.

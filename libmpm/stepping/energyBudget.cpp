@@ -53,7 +53,8 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork - (l.kineticEnergy - l.initialKineticEnergy) -
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork +
+           (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation - l.wallLoss -
            l.splitMergeLoss - l.transferLoss;
 }
@@ -128,7 +129,7 @@ const std::vector<std::string>& budgetColumns()
 {
     static const std::vector<std::string> columns = {
         "time",           "kineticChange", "strainChange", "plasticDissipation", "frictionDissipation", "wallLoss",
-        "splitMergeLoss", "transferLoss",  "gravityWork",  "tractionWork",       "bodyForceWork",       "residual"};
+        "splitMergeLoss", "transferLoss",  "gravityWork",  "tractionWork",       "bodyForceWork",       "volumeWork", "staggering", "residual"};
     return columns;
 }
 
@@ -146,6 +147,8 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.gravityWork,
             l.tractionWork,
             l.bodyForceWork,
+            l.volumeWork,
+            l.staggering - l.initialStaggering,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -56,8 +56,12 @@ class ExplicitStepper : public Stepper
     struct TileSums
     {
         double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
-        double strainWork = 0; ///< sum V sigma : D dt with stress and volume before the update
-        double smallestJacobian = 1, maxYield = 0;
+        double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
+        double strainWork = 0;       ///< the same with stress and volume after it
+        double strainEnergy = 0, volumeWork = 0;
+        Vector3 momentum{};
+        double fastest = 0; ///< max v.v
+        double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
         bool stray = false;     ///< a particle has left its tile's window, or the grid
@@ -69,7 +73,8 @@ class ExplicitStepper : public Stepper
         AlignedVector<typename transfer::ValueNode<dim>::Type> values;
         AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
         alignas(64) Vectors x, xNew, half, v;
-        alignas(64) double mass[lanes], volume[lanes];
+        alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes];
+        alignas(64) double bulk[lanes], shear[lanes];
         alignas(64) constitutive::TensorLanes<dim> L, F;
         alignas(64) double J[lanes];
         constitutive::Chunk<dim> law;
@@ -99,6 +104,7 @@ class ExplicitStepper : public Stepper
     void particlePass(double dt, const Pass& pass);
     void moveSurfaces(double dt);
     void book(const Pass& pass);
+    void bookStressWork(double dt);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
     void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
@@ -108,6 +114,7 @@ class ExplicitStepper : public Stepper
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     void advanceVelocity(Workspace& ws, Index first, int count, double dt);
     void updateStress(Workspace& ws, Index first, int count, double dt);
+    void loadModuli(Workspace& ws, Index first, int count) const;
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
     void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
@@ -136,7 +143,14 @@ class ExplicitStepper : public Stepper
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread
+    /// Work of internal forces in this step, - sum dt f_int . v, and of the strains, sum V sigma : D dt.
+    struct
+    {
+        double ofForcesBefore = 0, ofForces = 0;   ///< on v_i, on v*
+        double ofStrainsBefore = 0, ofStrains = 0; ///< of the stress before and after its update, both on w
+    } work_;
     double smallestMass_ = 0;
+    std::vector<std::array<double, 2>> moduli_; ///< K and G of each material
     bool arranged_ = false;  ///< tiles belong to the particles as they stand
     bool projected_ = false; ///< windows hold the first projection of the coming step
     bool stray_ = false;     ///< the last projection left particles out

@@ -30,13 +30,15 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
                 tractions_.emplace_back(load);
                 tractionPatch_.push_back(k);
             }
+    for (const auto& material : scene.materials)
+        moduli_.push_back({material.law->bulkModulus(), material.law->shearModulus()});
     sortByStoredKeys(state);
 }
 
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::particlesChanged()
 {
-    arranged_ = projected_ = false;
+    arranged_ = projected_ = stray_ = false;
 }
 
 // One step ------------------------------------------------------------------------------------------------------------
@@ -68,6 +70,7 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         particlePass(dt, {.velocity = true, .moves = true, .then = Project::momentum});
         break;
     }
+    bookStressWork(dt);
     state_.time += dt;
     state_.deltaT = dt;
     ++state_.step;
@@ -209,7 +212,14 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.apexVolume += s.apexVolume;
         total.bodyForceWork += s.bodyForceWork;
         total.bodyForceEnd += s.bodyForceEnd;
+        total.strainWorkBefore += s.strainWorkBefore;
         total.strainWork += s.strainWork;
+        total.strainEnergy += s.strainEnergy;
+        total.volumeWork += s.volumeWork;
+        for (int a = 0; a < dim; ++a)
+            total.momentum[a] += s.momentum[a];
+        total.fastest = std::max(total.fastest, s.fastest);
+        total.largestJacobian = std::max(total.largestJacobian, s.largestJacobian);
         total.apexReturns += s.apexReturns;
         total.cappedDomains += s.cappedDomains;
         total.smallestJacobian = std::min(total.smallestJacobian, s.smallestJacobian);
@@ -222,16 +232,19 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.transferLoss -= total.kinetic - ledger.kineticEnergy;
         ledger.kineticEnergy = total.kinetic;
         ledger.bodyForceWork += total.bodyForceWork;
-        ledger.pendingForceWork -= total.bodyForceEnd;
+        work_.ofForcesBefore += 2 * total.bodyForceWork - total.bodyForceEnd;
+        work_.ofForces += total.bodyForceEnd;
+        report_.momentum = total.momentum;
+        report_.largestSpeed = std::sqrt(total.fastest);
     }
     if (pass.strain)
     {
-        // Strains see a projected velocity w, the forces worked on v*: half of f_int . (v* - w) dt belongs to the
-        // stress at either end of the step. USL takes its strains from v* itself.
-        const bool worked = scene_.stressUpdate == StressUpdate::MUSL || state_.step > 0;
-        if (scene_.stressUpdate != StressUpdate::USL && worked)
-            ledger.transferLoss -= 0.5 * (ledger.pendingForceWork + total.strainWork);
+        work_.ofStrainsBefore = total.strainWorkBefore;
+        work_.ofStrains = total.strainWork;
         ledger.plasticDissipation += total.plasticWork;
+        ledger.volumeWork += total.volumeWork;
+        report_.strainEnergy = total.strainEnergy;
+        state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;
         ledger.apexReturns += total.apexReturns;
         report_.smallestJacobian = total.smallestJacobian;
@@ -244,6 +257,32 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         projected_ = !scene_.bodyForce; // prescribed forces are asked for at the time and place of their step
         stray_ = total.stray;
     }
+}
+
+/// The stress works on three velocities: v_i and v* in the nodal equations, w in the strains. What it does on the changes
+/// that projections make between them is lost in transfer, half of it belonging to either end of a step:
+///     USL, MUSL    1/2 sigma_n : (D* - D_w) and, from one step to the next, 1/2 sigma_n : (D_i - D_w of the last step)
+///     USF          1/2 sigma_n+1 : (D_i - D_w) and 1/2 sigma_n : (D* of the last step - D_w)
+/// What is left of the mismatch is a function of the state, the staggering: velocities live half a step off the stresses.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
+{
+    auto& ledger = state_.ledger;
+    const bool strainsFirst = scene_.stressUpdate == StressUpdate::USF;
+    // the last step's work on this step's stress, and the same work as this step finds it
+    const double found = strainsFirst ? work_.ofStrainsBefore : work_.ofForcesBefore;
+    if (state_.step == 0)
+    {
+        ledger.pendingWork = found;
+        ledger.initialStaggering = (strainsFirst ? -0.5 : 0.5) * found;
+    }
+    const double sameStep = state_.step == 0 ? 1 : state_.deltaT / dt;
+    if (strainsFirst)
+        ledger.transferLoss += 0.5 * (work_.ofForcesBefore - work_.ofStrains + ledger.pendingWork - sameStep * found);
+    else
+        ledger.transferLoss += 0.5 * (work_.ofForces - work_.ofStrainsBefore + sameStep * found - ledger.pendingWork);
+    ledger.pendingWork = strainsFirst ? work_.ofForces : work_.ofStrains;
+    ledger.staggering = (strainsFirst ? -0.5 : 0.5) * ledger.pendingWork;
 }
 
 template <int dim, class Shape>

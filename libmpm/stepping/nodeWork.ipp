@@ -101,9 +101,15 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     for (const auto& block : blockSums_)
         sums += block;
     auto& ledger = state_.ledger;
-    ledger.pendingForceWork = sums.forceWork;
+    work_.ofForcesBefore = -sums.forceWorkBefore;
+    work_.ofForces = -sums.forceWork;
     for (const auto& traction : tractions_)
-        ledger.pendingForceWork -= traction.book(dt, ledger.tractionWork, ledger.tractionImpulse);
+    {
+        const auto [before, after] = traction.book(dt, ledger.tractionWork, ledger.tractionImpulse);
+        work_.ofForcesBefore += before;
+        work_.ofForces += after;
+    }
+    report_.lightestNode = sums.lightest;
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;

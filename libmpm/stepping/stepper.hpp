@@ -56,6 +56,10 @@ struct Scene
 struct StepReport
 {
     double smallestJacobian = 1;  ///< min det F
+    double largestSpeed = 0;      ///< max |v_p| [m/s]
+    double strainEnergy = 0;      ///< sum V 1/2 sigma : C^-1 : sigma [J]
+    Vector3 momentum{};           ///< sum m v_p [N s]
+    double lightestNode = 0;      ///< smallest mass of a node that carries any [kg]
     double maxYieldViolation = 0; ///< max f/max(|sigma|, strength) over particles, 0 if none yields
     Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
 };

@@ -5,11 +5,11 @@
 
 namespace mpm::stepping
 {
-double criticalCourant(bool ignoresMass, StressUpdate update, double smallestNodalMassFraction)
+double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double smallestNodalMassFraction)
 {
-    if (update != StressUpdate::USL)
-        return 1.4;
-    return ignoresMass ? 0.65 : std::min(0.67, 1.8 * std::sqrt(smallestNodalMassFraction));
+    if (update == StressUpdate::USL)
+        return ignoresMass ? 0.36 : std::min(0.36, 1.2 * std::sqrt(smallestNodalMassFraction));
+    return !ignoresMass ? 0.85 : dim == 2 ? 1.4 : 1.2;
 }
 
 double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials)
@@ -32,10 +32,16 @@ bool limitFollowsMass(const Scene& scene, bool ignoresMass)
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool ignoresMass)
 {
     StabilityLimit limit;
-    limit.courant = criticalCourant(ignoresMass, scene.stressUpdate,
+    limit.courant = criticalCourant(state.particles.dim, ignoresMass, scene.stressUpdate,
                                     limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
-    limit.waveSpeed = fastestWave(state, scene.materials);
-    limit.deltaT = limit.courant * state.grid.h / limit.waveSpeed;
+    return movedLimit(limit, fastestWave(state, scene.materials), state, stepper.largestSpeed());
+}
+
+StabilityLimit movedLimit(StabilityLimit limit, double restWaveSpeed, const state::State& state, double speed)
+{
+    limit.waveSpeed = restWaveSpeed * std::sqrt(state.largestJacobian);
+    limit.speed = speed;
+    limit.deltaT = limit.courant * state.grid.h / (limit.waveSpeed + limit.speed);
     return limit;
 }
 

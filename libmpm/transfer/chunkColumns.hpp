@@ -68,6 +68,15 @@ inline double sumOfProducts(const Lanes& a, const Lanes& b)
     return sumOf(sum);
 }
 
+/// sum a over the lanes of a chunk, in a fixed order.
+inline double sumOfLanes(const Lanes& a)
+{
+    Record sum{};
+    for (int g = 0; g < lanes; g += 8)
+        sum += load(a + g);
+    return sumOf(sum);
+}
+
 /// A NaN may hide other values: ask allWithin first where it matters.
 inline double largest(const Lanes& a)
 {
