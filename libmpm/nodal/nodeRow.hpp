@@ -13,15 +13,16 @@ namespace mpm::nodal
 /// Energies and impulses of one step, summed over nodes. Per metre in 2D.
 struct NodeSums
 {
-    double kineticBefore = 0;                ///< sum m v_i^2/2 [J]
-    double kineticAfter = 0;                 ///< sum m v*^2/2 [J]
-    double gravityWork = 0;                  ///< sum dt m b . (v_i + v*)/2 [J]
-    double tractionWork = 0;                 ///< sum dt f_tau . (v_i + v*)/2 [J]
-    double frictionLoss = 0;                 ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
-    double forceWork = 0;                    ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;                     ///< the same for every other wall impulse J [J]
-    Index contacts = 0;                      ///< nodes at which a friction wall pressed
-    Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
+    double kineticBefore = 0;                                  ///< sum m v_i^2/2 [J]
+    double kineticAfter = 0;                                   ///< sum m v*^2/2 [J]
+    double gravityWork = 0;                                    ///< sum dt m b . (v_i + v*)/2 [J]
+    double tractionWork = 0;                                   ///< sum dt f_tau . (v_i + v*)/2 [J]
+    double frictionLoss = 0;                                   ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double dampingLoss = 0;                                    ///< - sum J . (v_i + v*)/2 of damping [J]
+    double forceWork = 0;                                      ///< sum dt f . v* over the projected forces [J]
+    double wallLoss = 0;                                       ///< the same for every other wall impulse J [J]
+    Index contacts = 0;                                        ///< nodes at which a friction wall pressed
+    Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
 
     NodeSums& operator+=(const NodeSums& o)
     {
@@ -31,12 +32,14 @@ struct NodeSums
         tractionWork += o.tractionWork;
         frictionLoss += o.frictionLoss;
         wallLoss += o.wallLoss;
+        dampingLoss += o.dampingLoss;
         forceWork += o.forceWork;
         contacts += o.contacts;
         for (int a = 0; a < 3; ++a)
         {
             gravityImpulse[a] += o.gravityImpulse[a];
             wallImpulse[a] += o.wallImpulse[a];
+            dampingImpulse[a] += o.dampingImpulse[a];
         }
         return *this;
     }

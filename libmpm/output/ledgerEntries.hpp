@@ -6,6 +6,12 @@
 
 namespace mpm::output
 {
+/// Entries that states of formatVersion 1 may lack, as they came later: 0 there.
+inline bool cameLater(const std::string& name)
+{
+    return name == "dampingDissipation" || name == "dampingImpulse";
+}
+
 /// Calls visit(name, value, unit) for every entry; value is a double, an Index or a Vector3.
 template <class Ledger, class Visitor>
 void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
@@ -15,6 +21,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallLoss", ledger.wallLoss, "J");
     visit("splitMergeLoss", ledger.splitMergeLoss, "J");
     visit("transferLoss", ledger.transferLoss, "J");
+    visit("dampingDissipation", ledger.dampingDissipation, "J");
     visit("pendingForceWork", ledger.pendingForceWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
@@ -26,6 +33,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallImpulse", ledger.wallImpulse, "N s");
     visit("gravityImpulse", ledger.gravityImpulse, "N s");
     visit("tractionImpulse", ledger.tractionImpulse, "N s");
+    visit("dampingImpulse", ledger.dampingImpulse, "N s");
     visit("initialMomentum", ledger.initialMomentum, "N s");
     visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
     visit("apexReturns", ledger.apexReturns, "1");
@@ -34,7 +42,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 31 * 8,
+    static_assert(sizeof(state::Ledger) == 35 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

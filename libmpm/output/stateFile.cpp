@@ -175,7 +175,9 @@ void readLedger(const Hdf5File& file, state::Ledger& ledger)
 {
     forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
         using Value = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<Value, Vector3>)
+        if (cameLater(name) && !file.exists("/ledger/" + name))
+            value = Value{};
+        else if constexpr (std::is_same_v<Value, Vector3>)
         {
             const auto values = file.read<double>("/ledger/" + name, {3});
             std::copy(values.begin(), values.end(), value.begin());

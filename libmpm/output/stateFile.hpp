@@ -16,7 +16,8 @@
 ///     /particles/id, sortKey     (N)           int64                 (sortKey, id) is the order in memory
 ///     /particles/material, generation (N)      int32
 ///     /grid/origin (3) [m], /grid/cellSize [m], /grid/cells (3) int64, attribute dimension
-///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run
+///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run;
+///                                those that came after the first release may be absent: 0 (ledgerEntries.hpp)
 ///     /patches/<name>/centre (n, dim), edges (n, dim (dim - 1)) [m]; attribute index (place in the list)
 ///     /provenance/<name>         texts
 ///     /derived/<field>           (N, k) float64, attribute components: fields of the particles made by utilities

@@ -19,17 +19,19 @@ struct Ledger
     /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on
     /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
     double transferLoss = 0;
-    double pendingForceWork = 0; ///< sum dt f_int . v* of the last step, waiting for the strains it belongs to
-    double gravityWork = 0;      ///< sum dt m_i b . (v_i + v*)/2
-    double tractionWork = 0;     ///< sum dt f_tau . (v_i + v*)/2
-    double apexVolume = 0;       ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double bodyForceWork = 0;    ///< work of prescribed body forces other than gravity
-    double kineticEnergy = 0;    ///< of the particles, now
+    double dampingDissipation = 0; ///< work of damping taken from the body
+    double pendingForceWork = 0;   ///< sum dt f_int . v* of the last step, waiting for the strains it belongs to
+    double gravityWork = 0;        ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;       ///< sum dt f_tau . (v_i + v*)/2
+    double apexVolume = 0;         ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double bodyForceWork = 0;      ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0;      ///< of the particles, now
     double initialKineticEnergy = 0;
     double initialStrainEnergy = 0;
     Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]
     Vector3 gravityImpulse{};        ///< impulse of gravity [N s]
     Vector3 tractionImpulse{};       ///< impulse of tractions [N s]
+    Vector3 dampingImpulse{};        ///< impulse of damping [N s]
     Vector3 initialMomentum{};       ///< momentum at the start [N s]
     double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
     Index apexReturns = 0;           ///< particle returns to the apex

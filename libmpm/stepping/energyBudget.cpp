@@ -54,8 +54,8 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 double residual(const state::Ledger& l, double strainEnergy)
 {
     return l.gravityWork + l.tractionWork + l.bodyForceWork - (l.kineticEnergy - l.initialKineticEnergy) -
-           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation - l.wallLoss -
-           l.splitMergeLoss - l.transferLoss;
+           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
+           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -127,8 +127,9 @@ std::vector<double> historyRow(const state::State& s, const Totals& t, const Ste
 const std::vector<std::string>& budgetColumns()
 {
     static const std::vector<std::string> columns = {
-        "time",           "kineticChange", "strainChange", "plasticDissipation", "frictionDissipation", "wallLoss",
-        "splitMergeLoss", "transferLoss",  "gravityWork",  "tractionWork",       "bodyForceWork",       "residual"};
+        "time",     "kineticChange",  "strainChange", "plasticDissipation", "frictionDissipation", "dampingDissipation",
+        "wallLoss", "splitMergeLoss", "transferLoss", "gravityWork",        "tractionWork",        "bodyForceWork",
+        "residual"};
     return columns;
 }
 
@@ -140,6 +141,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             t.strainEnergy - l.initialStrainEnergy,
             l.plasticDissipation,
             l.frictionDissipation,
+            l.dampingDissipation,
             l.wallLoss,
             l.splitMergeLoss,
             l.transferLoss,
