@@ -277,6 +277,12 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
         d.get<double>({"picRate", "share of PIC velocity mixed in per second", unit::rate, Bound::nonNegative(), 0.0});
     scene.sortInterval =
         d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
+    if (const Dictionary* damping = d.findDict("damping", "force against the velocity"))
+    {
+        damping->choose("type", "what the force follows", {{"viscous", "mass and velocity: - m v/relaxationTime"}});
+        scene.relaxationTime = damping->get<double>(
+            {"relaxationTime", "time in which free momentum falls to 1/e", unit::time, Bound::positive()});
+    }
     if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
         scene.splitting = readSplitting(*splitting);
     return shape;

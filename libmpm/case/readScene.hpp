@@ -14,6 +14,7 @@
 ///     transfer      FLIP;
 ///     picRate       0;          // [1/s] share of PIC velocity mixed in per second
 ///     sortInterval  20;         // steps between sorts of the particles
+///     damping       { ... }     // nodal/damping.hpp; absent: none
 ///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
 #include "case/caseDirectory.hpp"
 #include "dictionary/dictionary.hpp"

@@ -122,6 +122,8 @@ void SolverRun::banner() const
                                      material.law->describe(), material.density, material.waveSpeed()));
     if (s.gravity)
         line("gravity", fmt::format("({:g} {:g} {:g}) m/s^2", (*s.gravity)[0], (*s.gravity)[1], (*s.gravity)[2]));
+    if (s.relaxationTime)
+        line("damping", fmt::format("viscous, relaxation time {:g} s", *s.relaxationTime));
     for (const auto& wall : s.walls)
         line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
     for (const auto& load : s.loads)
@@ -317,6 +319,8 @@ void SolverRun::summary()
          fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
                      t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
                      l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
+    if (scene_.scene.relaxationTime)
+        line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
     line("residual",
          fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
                      supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));

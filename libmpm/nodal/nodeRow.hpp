@@ -20,12 +20,13 @@ struct NodeSums
     double gravityWork = 0;                  ///< sum dt m b . (v_i + v*)/2 [J]
     double tractionWork = 0;                 ///< sum dt f_tau . (v_i + v*)/2 [J]
     double frictionLoss = 0;                 ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double dampingLoss = 0;                  ///< - sum J . (v_i + v*)/2 of damping [J]
     double forceWorkBefore = 0;              ///< sum dt f . v_i over the projected forces [J]
     double forceWork = 0;                    ///< sum dt f . v* over the projected forces [J]
     double wallLoss = 0;                     ///< the same for every other wall impulse J [J]
     Index contacts = 0;                      ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
-    Vector3 gravityImpulse{}, wallImpulse{}; ///< [N s]
+    Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
 
     NodeSums& operator+=(const NodeSums& o)
     {
@@ -36,6 +37,7 @@ struct NodeSums
         frictionLoss += o.frictionLoss;
         wallLoss += o.wallLoss;
         forceWorkBefore += o.forceWorkBefore;
+        dampingLoss += o.dampingLoss;
         forceWork += o.forceWork;
         contacts += o.contacts;
         lightest = std::min(lightest, o.lightest);
@@ -43,6 +45,7 @@ struct NodeSums
         {
             gravityImpulse[a] += o.gravityImpulse[a];
             wallImpulse[a] += o.wallImpulse[a];
+            dampingImpulse[a] += o.dampingImpulse[a];
         }
         return *this;
     }

@@ -15,6 +15,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallLoss", ledger.wallLoss, "J");
     visit("splitMergeLoss", ledger.splitMergeLoss, "J");
     visit("transferLoss", ledger.transferLoss, "J");
+    visit("dampingDissipation", ledger.dampingDissipation, "J");
     visit("pendingWork", ledger.pendingWork, "J");
     visit("staggering", ledger.staggering, "J");
     visit("initialStaggering", ledger.initialStaggering, "J");
@@ -29,6 +30,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallImpulse", ledger.wallImpulse, "N s");
     visit("gravityImpulse", ledger.gravityImpulse, "N s");
     visit("tractionImpulse", ledger.tractionImpulse, "N s");
+    visit("dampingImpulse", ledger.dampingImpulse, "N s");
     visit("initialMomentum", ledger.initialMomentum, "N s");
     visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
     visit("apexReturns", ledger.apexReturns, "1");
@@ -37,7 +39,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 34 * 8,
+    static_assert(sizeof(state::Ledger) == 38 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

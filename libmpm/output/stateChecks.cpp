@@ -39,6 +39,10 @@ class Checker
         };
         finite("time", state_.time);
         finite("deltaT", state_.deltaT);
+        if (!(state_.largestJacobian >= 1 && std::isfinite(state_.largestJacobian)))
+            fail(fmt::format("largestJacobian is {}, allowed >= 1", state_.largestJacobian));
+        if (!(state_.stepFactor > 0 && state_.stepFactor <= 1))
+            fail(fmt::format("stepFactor is {}, allowed > 0 to 1", state_.stepFactor));
         count("step", state_.step);
         count("nextId", state_.nextId);
         for (double length : state_.seedSpacing)

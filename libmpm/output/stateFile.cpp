@@ -16,7 +16,7 @@ namespace mpm::output
 namespace
 {
 constexpr const char* formatName = "libmpm state";
-constexpr Index formatVersion = 1;
+constexpr Index formatVersion = 2;
 
 /// Columns side by side: row i holds column 0 to used - 1 of particle i.
 template <class T, std::size_t n>
@@ -77,6 +77,8 @@ void writeRoot(Hdf5File& file, const state::State& state)
     file.setAttribute("/", "time", state.time);
     file.setAttribute("/", "step", state.step);
     file.setAttribute("/", "deltaT", state.deltaT);
+    file.setAttribute("/", "largestJacobian", state.largestJacobian);
+    file.setAttribute("/", "stepFactor", state.stepFactor);
     file.setAttribute("/", "seedSpacing", state.seedSpacing);
     file.setAttribute("/", "nextId", state.nextId);
     file.setAttribute("/", "materials", state.materials);
@@ -91,6 +93,8 @@ void readRoot(const Hdf5File& file, state::State& state)
     state.time = file.realAttribute("/", "time");
     state.step = file.integerAttribute("/", "step");
     state.deltaT = file.realAttribute("/", "deltaT");
+    state.largestJacobian = file.realAttribute("/", "largestJacobian");
+    state.stepFactor = file.realAttribute("/", "stepFactor");
     state.seedSpacing = file.vectorAttribute("/", "seedSpacing");
     state.nextId = file.integerAttribute("/", "nextId");
     state.materials = file.textsAttribute("/", "materials");
@@ -240,7 +244,9 @@ int readDimension(const Hdf5File& file)
         file.fail("/", fmt::format("attribute format is \"{}\", \"{}\" expected; {}", format, formatName, hint));
     const Index version = file.integerAttribute("/", "formatVersion");
     if (version != formatVersion)
-        file.fail("/", fmt::format("attribute formatVersion is {}, this program reads {}", version, formatVersion));
+        file.fail("/", fmt::format("attribute formatVersion is {}, this program reads {}{}", version, formatVersion,
+                                   version < formatVersion ? ": made by an older libmpm; seed and run the case again"
+                                                           : ": made by a newer libmpm"));
     const Index dim = file.integerAttribute("/", "dimension");
     if (dim != 2 && dim != 3)
         file.fail("/", fmt::format("attribute dimension is {}, allowed 2 or 3", dim));

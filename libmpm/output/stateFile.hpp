@@ -1,11 +1,12 @@
 #pragma once
 /// state.h5: everything a run needs to go on, one file a time folder. The only way utilities talk to each other.
 ///
-/// Layout, version 1 (HDF5, little-endian, uncompressed, texts of fixed length; N particles, dim 2 or 3, s = 4 or 6
+/// Layout, version 2 (HDF5, little-endian, uncompressed, texts of fixed length; N particles, dim 2 or 3, s = 4 or 6
 /// stress components xx yy zz xy (yz zx); every dataset carries its unit in the attribute "unit", "1" for numbers):
 ///
-///     /                          attributes format "libmpm state", formatVersion 1, dimension, time [s], step,
-///                                deltaT [s], seedSpacing (3) [m], nextId, materials (texts)
+///     /                          attributes format "libmpm state", formatVersion 2, dimension, time [s], step,
+///                                deltaT [s], largestJacobian, stepFactor, seedSpacing (3) [m], nextId,
+///                                materials (texts)
 ///     /particles/position        (N, dim)      float64 [m]
 ///     /particles/velocity        (N, dim)      float64 [m/s]
 ///     /particles/stress          (N, s)        float64 [Pa], Cauchy, tension positive; attribute components

@@ -19,6 +19,7 @@ struct Ledger
     /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on
     /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
     double transferLoss = 0;
+    double dampingDissipation = 0; ///< work of damping taken from the body
     double pendingWork = 0; ///< work of the last step's stress that the next step finds again (stepping/energyBudget.hpp)
     double staggering = 0;        ///< energy of velocities that live half a step off the stresses, now
     double initialStaggering = 0; ///< the same at the first step
@@ -33,6 +34,7 @@ struct Ledger
     Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]
     Vector3 gravityImpulse{};        ///< impulse of gravity [N s]
     Vector3 tractionImpulse{};       ///< impulse of tractions [N s]
+    Vector3 dampingImpulse{};        ///< impulse of damping [N s]
     Vector3 initialMomentum{};       ///< momentum at the start [N s]
     double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
     Index apexReturns = 0;           ///< particle returns to the apex

@@ -55,7 +55,8 @@ double residual(const state::Ledger& l, double strainEnergy)
 {
     return l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
-           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation - l.wallLoss -
+           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
+           l.dampingDissipation - l.wallLoss -
            l.splitMergeLoss - l.transferLoss;
 }
 
@@ -128,8 +129,9 @@ std::vector<double> historyRow(const state::State& s, const Totals& t, const Ste
 const std::vector<std::string>& budgetColumns()
 {
     static const std::vector<std::string> columns = {
-        "time",           "kineticChange", "strainChange", "plasticDissipation", "frictionDissipation", "wallLoss",
-        "splitMergeLoss", "transferLoss",  "gravityWork",  "tractionWork",       "bodyForceWork",       "volumeWork", "staggering", "residual"};
+        "time",     "kineticChange",  "strainChange", "plasticDissipation", "frictionDissipation", "dampingDissipation",
+        "wallLoss", "splitMergeLoss", "transferLoss", "gravityWork",        "tractionWork",        "bodyForceWork",
+        "volumeWork", "staggering", "residual"};
     return columns;
 }
 
@@ -141,6 +143,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             t.strainEnergy - l.initialStrainEnergy,
             l.plasticDissipation,
             l.frictionDissipation,
+            l.dampingDissipation,
             l.wallLoss,
             l.splitMergeLoss,
             l.transferLoss,

@@ -4,6 +4,7 @@
 ///     strainEnergy         sum V 1/2 sigma : C^-1 : sigma
 ///     plasticDissipation   sum V sigma_mid : dEps_p, sigma_mid the mean of the stresses before and after the step
 ///     frictionDissipation  - sum dt f_t . (v_i + v*)/2 over friction walls
+///     dampingDissipation   - sum J . (v_i + v*)/2, J the impulse of damping (nodal/damping.hpp)
 ///     wallLoss             - the same for all other wall forces (impact on walls)
 ///     transferLoss         (change of grid KE) - (change of particle KE), and in USF and MUSL, whose strains see a
 ///                          projected velocity w, - sum dt f_int . (v* - w)/2: the stress at both ends of a step works

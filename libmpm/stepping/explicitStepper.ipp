@@ -18,6 +18,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
 {
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
+    if (scene.relaxationTime) // last: it needs what all others do
+        effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
     for (const auto& wall : scene.walls)
     {
         walls_.emplace_back(wall);

@@ -113,12 +113,14 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;
+    ledger.dampingDissipation += sums.dampingLoss;
     ledger.wallContacts += sums.contacts;
     ledger.transferLoss += sums.kineticAfter - sums.kineticBefore;
     for (int a = 0; a < dim; ++a)
     {
         ledger.gravityImpulse[a] += sums.gravityImpulse[a];
         ledger.wallImpulse[a] += sums.wallImpulse[a];
+        ledger.dampingImpulse[a] += sums.dampingImpulse[a];
     }
 }
 

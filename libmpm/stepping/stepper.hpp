@@ -43,6 +43,7 @@ struct Scene
 {
     std::vector<constitutive::Material> materials; ///< by Particles::material
     std::optional<Vector3> gravity;                ///< [m/s^2]
+    std::optional<double> relaxationTime;          ///< of viscous damping [s]
     std::vector<nodal::Wall> walls;                ///< in the order of the dictionary
     std::vector<nodal::Load> loads;
     std::optional<splitting::Rule> splitting;

@@ -17,10 +17,10 @@ import numpy as np
 
 PROJECT = Path(__file__).resolve().parents[2]
 UTILITY = Path(os.environ.get("MPM_BUILD_DIR", PROJECT / "build")) / "bin" / "smoothStress"
-LEDGER_NUMBERS = ("plasticDissipation frictionDissipation wallLoss splitMergeLoss transferLoss pendingForceWork gravityWork "
+LEDGER_NUMBERS = ("plasticDissipation frictionDissipation wallLoss splitMergeLoss transferLoss dampingDissipation pendingWork staggering initialStaggering volumeWork gravityWork "
                   "tractionWork apexVolume bodyForceWork kineticEnergy initialKineticEnergy initialStrainEnergy "
                   "splitAngularMomentum").split()
-LEDGER_VECTORS = "wallImpulse gravityImpulse tractionImpulse initialMomentum".split()
+LEDGER_VECTORS = "wallImpulse gravityImpulse tractionImpulse dampingImpulse initialMomentum".split()
 LEDGER_COUNTS = "apexReturns splits splitsPutOff splitsCapped wallContacts".split()
 H = 0.5
 
@@ -41,10 +41,11 @@ def write_state(path, time, n=(8, 6), shuffle=True):
                "stress": random.uniform(-2e5, 0, (count, 4)), "id": (10 + np.arange(count))[order].astype("<i8")}
     path.parent.mkdir(parents=True, exist_ok=True)
     with h5py.File(path, "w") as file:
-        file.attrs["format"], file.attrs["formatVersion"] = text("libmpm state"), np.int64(1)
+        file.attrs["format"], file.attrs["formatVersion"] = text("libmpm state"), np.int64(2)
         for name, value in (("dimension", 2), ("step", 7), ("nextId", 10 + count)):
             file.attrs[name] = np.int64(value)
         file.attrs["time"], file.attrs["deltaT"], file.attrs["seedSpacing"] = time, 1e-3, np.array([H / 2, H / 2, 0.0])
+        file.attrs["largestJacobian"] = file.attrs["stepFactor"] = 1.0
         file.attrs["materials"] = np.array([b"soil"], dtype="S4")
         particles = file.create_group("particles")
         for name, value in columns.items():

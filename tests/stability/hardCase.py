@@ -151,7 +151,8 @@ class HardCase:
         self.check("change of mass" + tag, abs(mass), "<=", 1e-14)
         ledger = last.ledger
         dim = last["velocity"].shape[1]
-        sources = [ledger[n][:dim] for n in ("initialMomentum", "wallImpulse", "gravityImpulse", "tractionImpulse")]
+        sources = [ledger[n][:dim] for n in ("initialMomentum", "wallImpulse", "gravityImpulse", "tractionImpulse",
+                                          "dampingImpulse") if n in ledger]
         momentum = (last["mass"][:, None] * last["velocity"]).sum(axis=0)
         scale = (last["mass"][:, None] * np.abs(last["velocity"])).sum() + sum(np.abs(s).sum() for s in sources)
         if scale > 0:

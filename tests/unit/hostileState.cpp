@@ -87,7 +87,7 @@ TEST_CASE("foreign files are refused readably")
     {
         auto other = Hdf5File::create(file);
         other.setAttribute("/", "format", std::string("libmpm mesh"));
-        other.setAttribute("/", "formatVersion", Index(1));
+        other.setAttribute("/", "formatVersion", Index(2));
         other.close();
     }
     CHECK_THAT(refusal(file), Catch::Contains("\"libmpm mesh\""));

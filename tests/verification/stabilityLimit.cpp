@@ -97,7 +97,7 @@ TEST_CASE("critical Courant numbers of the step and the solver's bounds")
         for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
         {
             const double known = update == StressUpdate::USL ? row.usl : row.musl;
-            const double bound = stepping::criticalCourant(row.shape != "linear", update, row.massFraction);
+            const double bound = stepping::criticalCourant(2, row.shape != "linear", update, row.massFraction);
             const double below = growth(row.shape, update, row.delta, known - 0.02);
             const double above = growth(row.shape, update, row.delta, known + 0.02);
             fmt::print(
