@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -273,11 +274,12 @@ void letThreadsSleep(char** argv, const ApplicationInfo& info)
 int runApplication(int argc, char** argv, const ApplicationInfo& info, const std::function<int(const Options&)>& body)
 {
     letThreadsSleep(argv, info);
+    std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of that file, not the end
     try
     {
         const int code = run(std::vector<std::string>(argv + (argc > 0), argv + argc), info, body);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
-            return complain(info, 1, "the standard output could not be written (is the disk full?)");
+            return complain(info, code ? code : 1, "the standard output could not be written (is the disk full?)");
         return code;
     }
     catch (const InputError& error)

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/version.hpp"
+#include "case/interruption.hpp"
 #include "case/makeStepper.hpp"
 #include "case/provenance.hpp"
 #include "case/strainRecorder.hpp"
@@ -66,9 +67,11 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
                         limit_.waveSpeed, state_.grid.h));
     if (!record.empty())
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
-    storedTime_ = peakTime_ = state_.time;
+    written_.emplace(folder, runTime_->purgeWrite(), runTime_->timePrecision());
+    written_->goOnFrom(state_, lastStored_);
+    peakTime_ = state_.time;
     peakKinetic_ = state_.ledger.kineticEnergy;
-    firstStep_ = state_.step;
+    firstStep_ = writtenStep_ = state_.step;
 }
 
 SolverRun::~SolverRun() = default;
@@ -149,6 +152,7 @@ void SolverRun::banner() const
 void SolverRun::openOutput()
 {
     folder_.requireWritable();
+    folder_.removeLeftovers();
     const bool fresh = state_.step == 0;
     // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
     const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();
@@ -168,6 +172,8 @@ void SolverRun::openOutput()
     recordInstructionSet(state_, instructionSet());
     recordStorage(state_, storage());
     state_.provenance["dictionaries"] = scene_.dictionaries;
+    if (done())
+        writeSeries(); // a run killed at its very end may lack it
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
     profile_.beginSteps(stepper_->times());
 }
@@ -217,6 +223,7 @@ void SolverRun::step()
 }
 
 void SolverRun::writeIfDue()
+try
 {
     if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         finishWriting(); // a failure is told at once
@@ -229,6 +236,10 @@ void SolverRun::writeIfDue()
         progress_->update(state_.time, fmt::format("t {:.4g} s  dt {:.3g} s  {} particles", state_.time, state_.deltaT,
                                                    state_.particles.size()));
 }
+catch (const InputError& error)
+{
+    failWriting(error);
+}
 
 void SolverRun::writeRow()
 {
@@ -238,22 +249,28 @@ void SolverRun::writeRow()
     budget_->write(stepping::budgetRow(state_, totals));
 }
 
-void SolverRun::writeState()
+void SolverRun::writeState(bool outOfTurn)
 {
     const Clock clock(profile_.output);
     finishWriting();
-    writingName_ = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
-    storedTime_ = state_.time;
+    writingName_ = written_->next(state_, outOfTurn);
+    writtenStep_ = state_.step;
     const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
     writing_ = std::async(std::launch::async, [this, pending] {
+        history_->synchronise(); // a state on disk has its rows there
+        budget_->synchronise();
         pending->commit();
-        written_.push_back(writingName_);
-        folder_.purge(written_, runTime_->purgeWrite());
-        std::vector<std::string> names;
-        for (const auto& time : folder_.times())
-            names.push_back(time.name);
-        series_.write(names);
+        written_->committed();
+        writeSeries();
     });
+}
+
+void SolverRun::writeSeries()
+{
+    std::vector<std::string> names;
+    for (const auto& time : folder_.times())
+        names.push_back(time.name);
+    series_.write(names);
 }
 
 /// Throws what went wrong meanwhile.
@@ -263,6 +280,46 @@ void SolverRun::finishWriting()
         return;
     writing_.get();
     lastStored_ = writingName_;
+}
+
+void SolverRun::failWriting(const InputError& error)
+{
+    progress_.reset();
+    try
+    {
+        finishWriting();
+    }
+    catch (const InputError&)
+    {
+        // the first failure is the one to tell
+    }
+    throw InputError(fmt::format("{}\n    the last stored time is {}; once this is mended, mpmSolve goes on from there "
+                                 "(startFrom latestTime)",
+                                 error.what(), lastStored_));
+}
+
+int SolverRun::stop(int signal)
+{
+    try
+    {
+        if (writtenStep_ != state_.step)
+            writeState(true);
+        finishWriting();
+    }
+    catch (const InputError& error)
+    {
+        failWriting(error);
+    }
+    progress_.reset();
+    const bool latest = runTime_->start() == RunTime::Start::latest;
+    std::fflush(stdout);
+    std::fputs(fmt::format("--> mpmSolve: stopped by {} at {:g} s, after step {}; the state is in {}/state.h5.\n"
+                           "    Run mpmSolve again{}: startFrom latestTime goes on bitwise to endTime {:g} s.\n",
+                           signalName(signal), state_.time, state_.step, lastStored_,
+                           latest ? "" : " with startFrom latestTime in system/controlDict", runTime_->endTime())
+                   .c_str(),
+               stderr); // not print, which throws when the terminal is gone
+    return Interruption::exitCode(signal);
 }
 
 void SolverRun::warnings() const
