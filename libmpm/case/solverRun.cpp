@@ -153,6 +153,7 @@ void SolverRun::openOutput()
 {
     folder_.requireWritable();
     folder_.removeLeftovers();
+    written_->tidy();
     const bool fresh = state_.step == 0;
     // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
     const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();

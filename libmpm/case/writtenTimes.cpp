@@ -15,10 +15,9 @@ namespace
 {
 const std::string turnMark = "outOfTurn", purgeMark = "purgeWrite";
 
-std::vector<std::string> words(const state::State& state, const std::string& mark)
+std::vector<std::string> words(const std::string& text)
 {
-    const auto found = state.provenance.find(mark);
-    std::istringstream stream(found == state.provenance.end() ? "" : found->second);
+    std::istringstream stream(text);
     std::vector<std::string> list;
     for (std::string word; stream >> word;)
         list.push_back(word);
@@ -38,9 +37,9 @@ WrittenTimes::WrittenTimes(const CaseDirectory& folder, Index keep, int precisio
 void WrittenTimes::goOnFrom(state::State& state, const std::string& name)
 {
     const auto times = folder_.times();
-    inTurn_ = name;
+    start_ = inTurn_ = name;
     inTurnTime_ = state.time;
-    const auto turn = words(state, turnMark);
+    const auto turn = words(state.provenance[turnMark]);
     double before = 0;
     const bool marked = turn.size() == 2 &&
                         std::from_chars(turn[1].data(), turn[1].data() + turn[1].size(), before).ec == std::errc() &&
@@ -49,12 +48,11 @@ void WrittenTimes::goOnFrom(state::State& state, const std::string& name)
     {
         inTurn_ = turn[0];
         inTurnTime_ = before;
-        if (turn[0] != name && isNamed(times, turn[0]))
-            outOfTurn_ = name;
+        outOfTurn_ = name;
     }
     if (keep_ > 0 && state.provenance.count(purgeMark))
     {
-        for (const auto& old : words(state, purgeMark))
+        for (const auto& old : words(state.provenance[purgeMark]))
             if (old != name && isNamed(times, old))
                 purged_.push_back(old);
         if (!marked)
@@ -88,7 +86,7 @@ std::string WrittenTimes::next(state::State& state, bool outOfTurn)
 void WrittenTimes::committed()
 {
     if (!outOfTurn_.empty() && outOfTurn_ != name_)
-        dropOutOfTurn();
+        drop(outOfTurn_);
     outOfTurn_ = nameOutOfTurn_ ? name_ : "";
     if (nameOutOfTurn_)
         return;
@@ -96,16 +94,29 @@ void WrittenTimes::committed()
     folder_.purge(purged_, keep_);
 }
 
-void WrittenTimes::dropOutOfTurn()
+void WrittenTimes::tidy()
+{
+    folder_.purge(purged_, keep_);
+    const auto times = folder_.times();
+    auto before = std::find_if(times.rbegin(), times.rend(), [&](const auto& time) { return time.name == start_; });
+    if (before != times.rend())
+        while (++before != times.rend() && drop(before->name))
+            ;
+}
+
+/// False if that time is in turn, was worked on, or cannot be read and so is not ours.
+bool WrittenTimes::drop(const std::string& outOfTurn) const
 {
     try
     {
-        if (output::readSummary(folder_.statePath(outOfTurn_)).derived.empty())
-            folder_.removeTime(outOfTurn_);
+        const auto summary = output::readSummary(folder_.statePath(outOfTurn));
+        const auto turn = words(summary.outOfTurn);
+        return !turn.empty() && turn[0] != outOfTurn && summary.derived.empty() &&
+               isNamed(folder_.times(), turn[0]) && folder_.removeTime(outOfTurn);
     }
     catch (const InputError&)
     {
-        // it was removed, or replaced by something else: not ours any more
+        return false;
     }
 }
 

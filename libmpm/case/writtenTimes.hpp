@@ -25,17 +25,20 @@ class WrittenTimes
 
     /// The run starts from this state of the time folder `name`; takes the marks out of it.
     void goOnFrom(state::State& state, const std::string& name);
+    /// Removes what a killed run did not come to remove.
+    void tidy();
     /// The time folder for a state that is about to be written; puts the marks into it.
     std::string next(state::State& state, bool outOfTurn);
     /// That state has reached the disk: removes what it makes superfluous.
     void committed();
 
   private:
-    void dropOutOfTurn();
+    bool drop(const std::string& outOfTurn) const;
 
     const CaseDirectory& folder_;
     Index keep_;
     int precision_;
+    std::string start_;               ///< the run began from it
     std::string name_;                ///< of the state being written
     bool nameOutOfTurn_ = false;      ///< is that one out of turn?
     std::string inTurn_;              ///< the last in turn

@@ -58,6 +58,7 @@ TEST_CASE("ignored signals stay ignored, and what was there before comes back")
 {
     const int status = statusOf([] {
         std::signal(SIGHUP, SIG_IGN);
+        std::signal(SIGTERM, SIG_DFL); // Catch has its own
         {
             const Interruption interruption;
             std::raise(SIGHUP);
