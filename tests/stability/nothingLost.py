@@ -1,7 +1,7 @@
 """Nothing is lost: runs that are killed, interrupted, or meet a full disk keep whole states, and going on from them ends
 bitwise as the uninterrupted run, with the same files in the case folder.
 
-    nothingLost.py [NothingLost.test_name ...]     20 kills; with MPM_KILLS=200 the long version
+    nothingLost.py [NothingLost[.test_name] | SmallDisk ...]     20 kills; with MPM_KILLS=200 the long version
     MPM_BUILD_DIR names the build (default: build/), MPM_SEED the random numbers (default: 1)
 
 The scene is the collapsing column while it splits, from 0.5 s on, in several ways to step and to write.
@@ -56,7 +56,7 @@ def states(case):
     return {path.parent.name: path for path in case.glob("[0-9]*/state.h5")}
 
 
-class NothingLost(ColumnCase):
+class StoppedColumn(ColumnCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -91,6 +91,8 @@ class NothingLost(ColumnCase):
         return case
 
     # helpers
+
+    COMPLAINT = r"(?s)^--> mpmSolve: error: .*(cannot be|could not be)"
 
     def start(self, case, *options, **how):
         return subprocess.Popen([BINARIES / "mpmSolve", *options], cwd=case, text=True, stdout=subprocess.PIPE,
@@ -131,6 +133,8 @@ class NothingLost(ColumnCase):
         self.assertEqual(code, 0, message)
         self.assert_as_uninterrupted(case, way)
 
+
+class NothingLost(StoppedColumn):
     # what the tests stand on
 
     def test_the_scene_splits_and_writes(self):
@@ -140,6 +144,23 @@ class NothingLost(ColumnCase):
         self.assertGreater(len(self.expected["fixedStep"]), 15)
         self.assertEqual(len(self.expected["landing"]), 4)  # the start, and purgeWrite 3
 
+    def test_steps_do_not_depend_on_where_a_run_ends(self):
+        for way in WAYS:
+            case = self.column("ended", way)
+            for end in (0.5137, 0.53, END):
+                self.set(case, "system/controlDict", "endTime", str(end))
+                self.assertEqual(self.end(self.start(case))[0], 0)
+                self.assertGreater(float(max(states(case), key=float)), end - 5e-4)
+            for name in ("history.csv", "energyBudget.csv"):
+                self.assertEqual((case / "postProcessing" / name).read_text(),
+                                 (self.whole[way] / "postProcessing" / name).read_text(), f"{way}: {name}")
+            last = max(self.expected[way], key=float)
+            held, expected = content(states(case)[last]), dict(self.expected[way][last])
+            for name in ("provenance/purgeWrite", "provenance/dictionaries"):  # other times, another endTime
+                self.assertEqual(name in held, name in expected)
+                expected[name] = held.get(name)
+            self.assert_same(held, {name: value for name, value in expected.items() if value is not None}, way)
+
     # killed
 
     def test_killed_at_random_moments(self):
@@ -148,7 +169,7 @@ class NothingLost(ColumnCase):
             way = self.random.choice(list(WAYS))
             case = self.column(f"killed{kills}", way)
             while kills < KILLS:
-                run = self.start(case)
+                run = self.start(case, "-threads", self.random.choice("12"))
                 time.sleep(self.random.uniform(0, 0.8 * self.seconds[way]))
                 run.kill()
                 code, message = self.end(run)
@@ -219,6 +240,16 @@ class NothingLost(ColumnCase):
             self.assertEqual(self.end(self.start(case))[0], 0)
             self.assertEqual(extra in states(case), worked)
 
+    def test_the_message_says_what_to_change(self):
+        case = self.column("given", "fixedStep")
+        self.set(case, "system/controlDict", "startFrom", "firstTime")
+        run = self.stopped_half_way(case)
+        run.send_signal(signal.SIGHUP)
+        run.send_signal(signal.SIGCONT)
+        code, message = self.end(run)
+        self.assertEqual(code, 129, message)
+        self.assertIn("Run mpmSolve again with startFrom latestTime in system/controlDict: ", message)
+
     def test_the_second_signal_kills(self):
         case = self.column("twice", "fixedStep")
         run = self.stopped_half_way(case)
@@ -258,9 +289,7 @@ class NothingLost(ColumnCase):
         shutil.rmtree(case / "0")
         self.finish(case, "fixedStep")
 
-    # no room, no right to write
-
-    COMPLAINT = r"(?s)^--> mpmSolve: error: .*(cannot be|could not be|cannot be made)"
+    # no room
 
     def test_files_that_may_not_grow(self):
         """RLIMIT_FSIZE: every file ends at a random length."""
@@ -277,6 +306,19 @@ class NothingLost(ColumnCase):
                 self.assert_whole(case, way)
                 failed += 1
             self.finish(case, way)
+
+    def test_a_full_disk_below_the_standard_output(self):
+        case = self.column("devFull", "fixedStep")
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([BINARIES / "mpmSolve"], cwd=case, text=True, stdout=full, stderr=subprocess.PIPE)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("the standard output could not be written", run.stderr)
+        self.assert_whole(case, "fixedStep")
+        self.finish(case, "fixedStep")
+
+
+class SmallDisk(StoppedColumn):
+    """Disks of our own that are full or read-only; skipped without the right to mount them."""
 
     def mounted(self, name, kibibytes):
         """A small disk; needs the right to mount one."""
