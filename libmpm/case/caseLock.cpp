@@ -88,9 +88,8 @@ bool CaseLock::open()
     if (descriptor_ < 0 && errno == EACCES)
         descriptor_ = ::open(file_.c_str(), O_RDONLY | flags); // left behind by another user: a lock all the same
     if (descriptor_ < 0)
-        throw InputError({folder_.string()},
-                         fmt::format("this folder cannot be written to: {}: {}", file_.filename().string(),
-                                     std::strerror(errno)));
+        throw InputError({folder_.string()}, fmt::format("this folder cannot be written to: {}: {}",
+                                                         file_.filename().string(), std::strerror(errno)));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0)
         return stillNamed();
     const int error = errno;

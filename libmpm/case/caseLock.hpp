@@ -9,8 +9,8 @@
 /// read, and -dry-run, need no lock.
 ///
 /// Errors: the case is in use (by whom); the file cannot be made (read-only folder, full disk). A file system without
-/// locks is no error: a note on stderr says so. flock over NFS holds between machines; where a file system locks only within a
-/// machine, so does this.
+/// locks is no error: a note on stderr says so. flock over NFS holds between machines; where a file system locks only
+/// within a machine, so does this.
 #include "case/application.hpp"
 
 #include <filesystem>

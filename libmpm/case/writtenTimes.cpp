@@ -111,8 +111,8 @@ bool WrittenTimes::drop(const std::string& outOfTurn) const
     {
         const auto summary = output::readSummary(folder_.statePath(outOfTurn));
         const auto turn = words(summary.outOfTurn);
-        return !turn.empty() && turn[0] != outOfTurn && summary.derived.empty() &&
-               isNamed(folder_.times(), turn[0]) && folder_.removeTime(outOfTurn);
+        return !turn.empty() && turn[0] != outOfTurn && summary.derived.empty() && isNamed(folder_.times(), turn[0]) &&
+               folder_.removeTime(outOfTurn);
     }
     catch (const InputError&)
     {

@@ -121,7 +121,8 @@ TEST_CASE("the lock does not outlive the program in one it starts")
         for (int k = 0; k < 5000; ++k)
         {
             std::error_code error;
-            if (fs::read_symlink("/proc/" + std::to_string(child) + "/exe", error) != fs::read_symlink("/proc/self/exe"))
+            if (fs::read_symlink("/proc/" + std::to_string(child) + "/exe", error) !=
+                fs::read_symlink("/proc/self/exe"))
                 break;
             ::usleep(1000);
         }

@@ -15,7 +15,8 @@ int main(int argc, char** argv)
         "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
         "-dry-run reads and checks everything, says what would be done and writes nothing.\n"
         "-overwrite with startFrom firstTime or startTime removes stored times after the start.\n"
-        "Ctrl-C (SIGINT), SIGTERM and SIGHUP: the step is finished and its state written, so that startFrom latestTime\n"
+        "Ctrl-C (SIGINT), SIGTERM and SIGHUP: the step is finished and its state written, so that startFrom "
+        "latestTime\n"
         "goes on bitwise; that time is removed once the next one in turn is on disk. A second signal kills at once.\n"
         "Exit codes: 0 endTime is reached; 1 wrong input, or nothing can be written; 2 the calculation cannot go on;\n"
         "3 a mistake of ours; 130, 143, 129 stopped by SIGINT, SIGTERM, SIGHUP.";
