@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <omp.h>
+#include <system_error>
 #ifdef __linux__
 #include <unistd.h>
 #endif
@@ -19,6 +21,7 @@ namespace mpm::cases
 namespace
 {
 constexpr int mostThreads = 1024;
+constexpr const char* outputFailed = "the standard output could not be written (is the disk full?)";
 
 std::vector<ExtraOption> allOptions(const ApplicationInfo& info)
 {
@@ -273,11 +276,12 @@ void letThreadsSleep(char** argv, const ApplicationInfo& info)
 int runApplication(int argc, char** argv, const ApplicationInfo& info, const std::function<int(const Options&)>& body)
 {
     letThreadsSleep(argv, info);
+    std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of that file, not the end
     try
     {
         const int code = run(std::vector<std::string>(argv + (argc > 0), argv + argc), info, body);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
-            return complain(info, 1, "the standard output could not be written (is the disk full?)");
+            return complain(info, code ? code : 1, outputFailed);
         return code;
     }
     catch (const InputError& error)
@@ -287,6 +291,12 @@ int runApplication(int argc, char** argv, const ApplicationInfo& info, const std
     catch (const std::filesystem::filesystem_error& error)
     {
         return complain(info, 1, error.what());
+    }
+    catch (const std::system_error& error)
+    {
+        if (std::ferror(stdout))
+            return complain(info, 1, outputFailed);
+        return complain(info, 2, error.what()); // of the machine: no more threads, say
     }
     catch (const StepError& error)
     {

@@ -262,6 +262,20 @@ bool CaseDirectory::removeTime(const std::string& timeName) const
     return !fs::exists(timePath(timeName));
 }
 
+void CaseDirectory::removeLeftovers() const
+{
+    std::error_code error;
+    std::vector<fs::path> folders;
+    for (const auto& entry : fs::directory_iterator(folder_, error))
+        if (entry.is_directory(error) && !entry.is_symlink(error) && number(entry.path().filename().string()))
+            folders.push_back(entry.path());
+    for (const auto& folder : folders)
+    {
+        fs::remove(output::temporaryName(folder / output::stateFileName), error);
+        fs::remove(folder, error); // refuses a folder that is not empty
+    }
+}
+
 void CaseDirectory::purge(std::vector<std::string>& written, Index keep) const
 {
     while (keep > 0 && Index(written.size()) > keep)

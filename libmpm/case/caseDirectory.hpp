@@ -63,6 +63,9 @@ class CaseDirectory
 
     /// Removes a time: its state, and its folder if nothing else is in it. False if something else was.
     bool removeTime(const std::string& timeName) const;
+    /// Removes what killed programs left in time folders: unfinished states, and folders in which nothing is left. Only
+    /// for who holds the lock of the case (caseLock.hpp): another's unfinished state looks the same.
+    void removeLeftovers() const;
     /// purgeWrite: of the times written by this run, oldest first, keeps the last `keep` (0 keeps all), removes the
     /// others and takes them off the list.
     void purge(std::vector<std::string>& written, Index keep) const;

@@ -1,6 +1,7 @@
 #include "case/copyCase.hpp"
 
 #include "base/error.hpp"
+#include "case/caseLock.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@ std::filesystem::path copyCase(const CaseDirectory& from, const std::filesystem:
         if (fs::equivalent(path, from.folder()))
             throw InputError("-target: found the case itself; allowed: another folder");
         const CaseDirectory old(path); // refuses to touch what is no case folder
+        const CaseLock lock(path, "splitParticles");
         for (const auto& time : old.times())
             old.removeTime(time.name);
         for (const auto& part : parts)

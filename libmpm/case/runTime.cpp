@@ -42,29 +42,26 @@ RunTime::RunTime(const Dictionary& d)
 
 bool RunTime::done(double time) const
 {
-    return time > endTime_ - (landing() ? 1e-9 * deltaT_ : 0.5 * deltaT_);
+    // Steps of changing size: the first that reaches it, with a margin for sums of steps that should land on it.
+    return time > endTime_ - (changing() ? std::max(1e-9 * deltaT_, 1e-15 * std::abs(endTime_)) : 0.5 * deltaT_);
 }
 
-double RunTime::nextWriteTime(double time) const
+bool RunTime::changing() const
 {
-    if (writeControl_ != "adjustableRunTime")
-        return endTime_;
-    return std::min(endTime_, writeInterval_ * (std::floor(time / writeInterval_ + 1e-9) + 1));
+    return adjust_ || landing();
 }
 
 bool RunTime::landing() const
 {
-    return adjust_ || writeControl_ == "adjustableRunTime";
+    return writeControl_ == "adjustableRunTime";
 }
 
 double RunTime::nextStep(double time, double limit) const
 {
-    if (!landing())
-        return deltaT_;
     const double wanted = adjust_ ? std::min(limit, maxDeltaT_) : deltaT_;
-    const double remaining = nextWriteTime(time) - time;
-    if (!(remaining > 0))
-        return wanted; // the run is over
+    if (!landing())
+        return wanted;
+    const double remaining = writeInterval_ * (std::floor(time / writeInterval_ + 1e-9) + 1) - time;
     return remaining / std::max(1.0, std::ceil(remaining / wanted - 1e-9));
 }
 
@@ -76,7 +73,7 @@ bool RunTime::writeNow(double before, double after, Index step) const
         return step % Index(writeInterval_) == 0;
     // Equal steps: the one nearest to the write time. Steps of changing size: every write time falls into just one of
     // them, whatever their sizes; the margin is for sums of steps that should land on it.
-    const double margin = landing() ? 1e-9 * writeInterval_ : 0.5 * deltaT_;
+    const double margin = changing() ? 1e-9 * writeInterval_ : 0.5 * deltaT_;
     return std::floor((after + margin) / writeInterval_) > std::floor((before + margin) / writeInterval_);
 }
 } // namespace mpm::cases

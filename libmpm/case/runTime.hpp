@@ -17,7 +17,10 @@
 ///     runTimeModifiable no;            // only `no`: a run reads its dictionaries once
 ///     historyInterval  1;              // steps between rows of postProcessing/history.csv
 ///
-/// A run with a fixed step takes the same steps however it is cut by restarts.
+/// The sequence of steps follows from the state and the write times alone, never from endTime: a run takes the same
+/// steps however it is cut by restarts. It ends with the step that reaches endTime: with a fixed step the nearest one,
+/// with changing steps the first not before it, which lands on it if endTime is a write time of adjustableRunTime and
+/// goes past it by less than a step otherwise.
 #include "dictionary/dictionary.hpp"
 
 #include <string>
@@ -53,8 +56,8 @@ class RunTime
     bool writeNow(double timeBefore, double timeAfter, Index step) const;
 
   private:
-    double nextWriteTime(double time) const;
-    bool landing() const; ///< are steps shortened to end at given times?
+    bool changing() const; ///< are steps of changing size?
+    bool landing() const;  ///< are steps shortened to end at write times?
 
     Start start_;
     double startTime_, endTime_, deltaT_, maxCo_, maxDeltaT_;

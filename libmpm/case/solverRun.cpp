@@ -66,9 +66,11 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
                         limit_.waveSpeed, state_.grid.h));
     if (!record.empty())
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
-    storedTime_ = peakTime_ = state_.time;
+    written_.emplace(folder, runTime_->purgeWrite(), runTime_->timePrecision());
+    written_->goOnFrom(state_, lastStored_);
+    peakTime_ = state_.time;
     peakKinetic_ = state_.ledger.kineticEnergy;
-    firstStep_ = state_.step;
+    firstStep_ = writtenStep_ = state_.step;
 }
 
 SolverRun::~SolverRun() = default;
@@ -151,6 +153,8 @@ void SolverRun::banner() const
 void SolverRun::openOutput()
 {
     folder_.requireWritable();
+    folder_.removeLeftovers();
+    written_->tidy();
     const bool fresh = state_.step == 0;
     // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
     const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();
@@ -170,6 +174,8 @@ void SolverRun::openOutput()
     recordInstructionSet(state_, instructionSet());
     recordStorage(state_, storage());
     state_.provenance["dictionaries"] = scene_.dictionaries;
+    if (done())
+        writeSeries(); // a run killed at its very end may lack it
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
     profile_.beginSteps(stepper_->times());
 }
@@ -219,6 +225,7 @@ void SolverRun::step()
 }
 
 void SolverRun::writeIfDue()
+try
 {
     if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         finishWriting(); // a failure is told at once
@@ -231,6 +238,10 @@ void SolverRun::writeIfDue()
         progress_->update(state_.time, fmt::format("t {:.4g} s  dt {:.3g} s  {} particles", state_.time, state_.deltaT,
                                                    state_.particles.size()));
 }
+catch (const InputError& error)
+{
+    failWriting(error);
+}
 
 void SolverRun::writeRow()
 {
@@ -240,22 +251,29 @@ void SolverRun::writeRow()
     budget_->write(stepping::budgetRow(state_, totals));
 }
 
-void SolverRun::writeState()
+void SolverRun::writeState(bool outOfTurn)
 {
     const Clock clock(profile_.output);
     finishWriting();
-    writingName_ = distinctTimeName(state_.time, storedTime_, runTime_->timePrecision());
-    storedTime_ = state_.time;
+    writingName_ = written_->next(state_, outOfTurn);
+    writtenStep_ = state_.step;
     const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
     writing_ = std::async(std::launch::async, [this, pending] {
+        history_->synchronise(); // a state on disk has its rows there
+        budget_->synchronise();
         pending->commit();
-        written_.push_back(writingName_);
-        folder_.purge(written_, runTime_->purgeWrite());
-        std::vector<std::string> names;
-        for (const auto& time : folder_.times())
-            names.push_back(time.name);
-        series_.write(names);
+        lastStored_ = writingName_; // read after finishWriting only
+        written_->committed();
+        writeSeries();
     });
+}
+
+void SolverRun::writeSeries()
+{
+    std::vector<std::string> names;
+    for (const auto& time : folder_.times())
+        names.push_back(time.name);
+    series_.write(names);
 }
 
 /// Throws what went wrong meanwhile.
@@ -264,7 +282,6 @@ void SolverRun::finishWriting()
     if (!writing_.valid())
         return;
     writing_.get();
-    lastStored_ = writingName_;
 }
 
 void SolverRun::warnings() const

@@ -9,6 +9,7 @@
 #include "case/readScene.hpp"
 #include "case/runProfile.hpp"
 #include "case/runTime.hpp"
+#include "case/writtenTimes.hpp"
 #include "output/csvSeries.hpp"
 #include "output/paraviewSeries.hpp"
 #include "stepping/energyBudget.hpp"
@@ -37,6 +38,9 @@ class SolverRun
     /// History rows, states, the ParaView series and progress, as far as they are due. A state is copied to its file
     /// here; that the file has reached the disk and takes its place is waited for at the next one, or at the end.
     void writeIfDue();
+    /// After a signal: the state is written out of turn (writtenTimes.hpp), one message on stderr says where the run
+    /// stopped and how to go on. Returns the exit code.
+    int stop(int signal);
     /// What happened, what it cost, what should be looked at. Option -profile: postProcessing/profile.csv.
     void summary();
 
@@ -46,8 +50,10 @@ class SolverRun
     stepping::StabilityLimit stabilityLimit() const;
     double stepSize() const;
     void writeRow();
-    void writeState();
+    void writeState(bool outOfTurn = false);
+    void writeSeries();
     void finishWriting();
+    [[noreturn]] void failWriting(const InputError& error);
     void warnings() const;
 
     RunProfile profile_; ///< first: its time begins with the run's
@@ -64,11 +70,11 @@ class SolverRun
     std::string lastStored_;
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins
     output::ParaviewSeries series_;
-    std::vector<std::string> written_;
+    std::optional<WrittenTimes> written_;
     std::future<void> writing_; ///< the disk takes the state `writingName_` while steps go on
     std::string writingName_;
-    double timeBefore_ = 0, storedTime_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double stepSeconds_ = 0;
-    Index firstStep_ = 0;
+    Index firstStep_ = 0, writtenStep_ = 0;
 };
 } // namespace mpm::cases

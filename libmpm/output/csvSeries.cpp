@@ -91,4 +91,9 @@ void CsvSeries::write(std::span<const double> row)
         throw InputError({file_.string()}, "a row cannot be written (disk full?)");
     lastTime_ = row.front();
 }
+
+void CsvSeries::synchronise() const
+{
+    synchroniseFile(file_);
+}
 } // namespace mpm::output

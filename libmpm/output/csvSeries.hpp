@@ -29,6 +29,9 @@ class CsvSeries
     void write(std::span<const double> row);
     void write(std::initializer_list<double> row) { write(std::span(row.begin(), row.size())); }
 
+    /// Brings the rows to the disk (fsync), as far as the file system can. From any thread.
+    void synchronise() const;
+
     /// Time of the last row in the file; nothing if there is none. A continuing run need not repeat it.
     std::optional<double> lastTime() const { return lastTime_; }
 

@@ -109,8 +109,12 @@ std::vector<std::string> pathsDownTo(const std::string& name)
 
 /// File access in which closing the file closes everything in it, and what is written is in the format of HDF5 1.8,
 /// whose superblock, headers and heaps carry checksums: damage is noticed before the library walks through it.
+///
+/// At the program's end HDF5 would try once more to write a file that met a full disk, and crash: every file is closed
+/// here, nothing is left for that moment. Has to be said before the library's first call.
 Handle strongAccess()
 {
+    [[maybe_unused]] static const herr_t noFarewell = H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // our messages, not HDF5's
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);

@@ -82,6 +82,11 @@ void commitTemporary(const fs::path& file)
     synchronise(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
 }
 
+void synchroniseFile(const fs::path& file)
+{
+    synchronise(file, O_RDWR);
+}
+
 void copyToTemporary(const fs::path& file)
 {
     const fs::path temporary = temporaryName(file);

@@ -18,6 +18,9 @@ void commitTemporary(const std::filesystem::path& file);
 /// (std::filesystem::copy_file goes on byte by byte behind the 2 GB that one call of sendfile takes.)
 void copyToTemporary(const std::filesystem::path& file);
 
+/// fsync of a file that is there; nothing if the file system refuses.
+void synchroniseFile(const std::filesystem::path& file);
+
 /// Writes a whole text file that way.
 void replaceText(const std::filesystem::path& file, const std::string& text);
 

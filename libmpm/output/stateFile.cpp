@@ -338,6 +338,8 @@ StateSummary readSummary(const std::filesystem::path& name)
     summary.particles = shape.front();
     for (const auto& field : file.members("/derived"))
         summary.derived.push_back({field, file.textsAttribute("/derived/" + field, "components")});
+    if (file.exists("/provenance/outOfTurn"))
+        summary.outOfTurn = file.readText("/provenance/outOfTurn");
     return summary;
 }
 } // namespace mpm::output

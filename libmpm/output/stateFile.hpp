@@ -81,6 +81,7 @@ struct StateSummary
     Index step = 0;
     Index particles = 0;
     std::vector<FieldName> derived;
+    std::string outOfTurn; ///< /provenance/outOfTurn (case/writtenTimes.hpp); empty: there is none
 };
 StateSummary readSummary(const std::filesystem::path& file);
 

@@ -1,4 +1,6 @@
 // Solves the motion of a case: from the last stored state to endTime, one explicit step after the other.
+#include "case/caseLock.hpp"
+#include "case/interruption.hpp"
 #include "case/solverRun.hpp"
 
 int main(int argc, char** argv)
@@ -12,19 +14,28 @@ int main(int argc, char** argv)
         "the state of the start time (seedParticles makes the first).\n"
         "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
         "-dry-run reads and checks everything, says what would be done and writes nothing.\n"
-        "-overwrite with startFrom firstTime or startTime removes stored times after the start.";
+        "-overwrite with startFrom firstTime or startTime removes stored times after the start.\n"
+        "Ctrl-C (SIGINT), SIGTERM and SIGHUP: the step is finished and its state written, so that startFrom "
+        "latestTime\n"
+        "goes on bitwise; that time is removed once the next one in turn is on disk. A second signal kills at once.\n"
+        "Exit codes: 0 endTime is reached; 1 wrong input, or nothing can be written; 2 the calculation cannot go on;\n"
+        "3 a mistake of ours; 130, 143, 129 stopped by SIGINT, SIGTERM, SIGHUP.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory folder(options.caseFolder);
+        const cases::CaseLock lock(options, "mpmSolve");
         cases::SolverRun run(folder, options);
         run.banner();
         if (options.dryRun)
             return 0;
+        const cases::Interruption interruption;
         run.openOutput();
-        while (!run.done())
+        while (!run.done() && !interruption.signal())
         {
             run.step();
             run.writeIfDue();
         }
+        if (!run.done())
+            return run.stop(interruption.signal());
         run.summary();
         return 0;
     });

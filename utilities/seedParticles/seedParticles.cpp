@@ -4,6 +4,7 @@
 #include "base/version.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
+#include "case/caseLock.hpp"
 #include "case/gridFromDict.hpp"
 #include "case/readScene.hpp"
 #include "output/paraviewSeries.hpp"
@@ -41,6 +42,7 @@ int main(int argc, char** argv)
         ".msh). Writes 0/state.h5 and <case>.xdmf for ParaView. -dry-run says what would be seeded and writes nothing.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);
+        const cases::CaseLock lock(options, "seedParticles");
         refuseOldState(here, options.overwrite);
         const auto read = [&](const std::string& name) {
             return dictionary::Dictionary::readFile(here.dictionaryPath(name));

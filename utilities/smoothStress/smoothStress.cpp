@@ -2,6 +2,7 @@
 #include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
+#include "case/caseLock.hpp"
 #include "dictionary/dictionary.hpp"
 #include "output/csvSeries.hpp"
 #include "output/derivedFields.hpp"
@@ -87,6 +88,7 @@ int main(int argc, char** argv)
         "correlation against overburden, and N = RMS(raw - smoothed)/RMS(smoothed).";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);
+        const cases::CaseLock lock(options, "smoothStress");
         const std::string shape = readShape(here);
         const Vector3 gravity = readGravity(here);
         const auto times = here.selectTimes(options.time, options.latestTime);

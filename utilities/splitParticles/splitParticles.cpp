@@ -4,9 +4,11 @@
 #include "base/version.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
+#include "case/caseLock.hpp"
 #include "case/copyCase.hpp"
 #include "case/provenance.hpp"
 #include "case/readScene.hpp"
+#include "case/writtenTimes.hpp"
 #include "output/stateFile.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +28,9 @@ int main(int argc, char** argv)
         "Works on one time: -time T, or the latest.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory folder(options.caseFolder);
+        std::optional<cases::CaseLock> lock;
+        if (!options.has("target"))
+            lock.emplace(options, "splitParticles");
         const auto times = folder.selectTimes(options.time, options.latestTime || !options.time);
         if (times.size() != 1)
             throw InputError(fmt::format("-time: found {} times; allowed: one", times.size()));
@@ -50,11 +55,13 @@ int main(int argc, char** argv)
                 fmt::print("  note: {}\n", note);
         cases::recordInstructionSet(state, instructionSet());
         cases::recordStorage(state, storage());
+        cases::forgetTurn(state);
         if (options.dryRun)
             return 0;
         if (options.has("target"))
         {
             const auto target = cases::copyCase(folder, options.value("target"), options.overwrite);
+            lock.emplace(target, "splitParticles");
             output::writeState(target / times[0].name, state);
             fmt::print("  written to {}\n", (std::filesystem::path(options.value("target")) / times[0].name).string());
             return 0;
