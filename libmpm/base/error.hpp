@@ -32,6 +32,13 @@ class StepError : public std::runtime_error
     explicit StepError(const std::string& what);
 };
 
+/// A particle has left the grid: smaller steps would not help, a larger grid would.
+class OutsideGrid : public StepError
+{
+  public:
+    using StepError::StepError;
+};
+
 /// The candidate closest to `word` by edit distance, ignoring case; empty if none is near: the distance is at
 /// most 1 + length/3 and less than the length. Words beyond 64 characters have no near ones.
 std::string nearestWord(const std::string& word, const std::vector<std::string>& candidates);

@@ -7,6 +7,7 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/readScene.hpp"
+#include "case/runMonitor.hpp"
 #include "case/runProfile.hpp"
 #include "case/runTime.hpp"
 #include "case/writtenTimes.hpp"
@@ -34,6 +35,8 @@ class SolverRun
     /// Begins postProcessing/history.csv and energyBudget.csv, or continues them.
     void openOutput();
     bool done() const { return runTime_->done(state_.time); }
+    /// One step that the monitor finds good. With `action adapt` the run may go back before it, and its rows in
+    /// postProcessing with it.
     void step();
     /// History rows, states, the ParaView series and progress, as far as they are due. A state is copied to its file
     /// here; that the file has reached the disk and takes its place is waited for at the next one, or at the end.
@@ -49,6 +52,11 @@ class SolverRun
     std::vector<std::string> laterTimes(const TimeFolder& start) const;
     stepping::StabilityLimit stabilityLimit() const;
     double stepSize() const;
+    double nextStep();
+    std::string tryStep();
+    void goBack(const std::string& why);
+    [[noreturn]] void giveUp(const std::string& why);
+    void openSeries(std::optional<double> continueAt);
     void writeRow();
     void writeState(bool outOfTurn = false);
     void writeSeries();
@@ -64,6 +72,8 @@ class SolverRun
     SceneOfCase scene_;
     std::unique_ptr<stepping::Stepper> stepper_;
     stepping::StabilityLimit limit_;
+    std::optional<RunMonitor> monitor_;
+    double restWaveSpeed_ = 0;
     std::unique_ptr<StrainRecorder> recorder_;
     std::unique_ptr<output::CsvSeries> history_, budget_;
     std::unique_ptr<Progress> progress_;
@@ -73,8 +83,9 @@ class SolverRun
     std::optional<WrittenTimes> written_;
     std::future<void> writing_; ///< the disk takes the state `writingName_` while steps go on
     std::string writingName_;
-    double timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
-    double stepSeconds_ = 0;
+    double firstTime_ = 0, timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
+    double stepSeconds_ = 0, adaptSeconds_ = 0;
+    double smallestStep_ = 0, largestStep_ = 0; ///< [s]
     Index firstStep_ = 0, writtenStep_ = 0;
 };
 } // namespace mpm::cases

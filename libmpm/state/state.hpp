@@ -20,15 +20,16 @@ struct Ledger
     /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
     double transferLoss = 0;
     double dampingDissipation = 0; ///< work of damping taken from the body
-    double pendingWork = 0; ///< work of the last step's stress that the next step finds again (stepping/energyBudget.hpp)
+    double pendingWork =
+        0; ///< work of the last step's stress that the next step finds again (stepping/energyBudget.hpp)
     double staggering = 0;        ///< energy of velocities that live half a step off the stresses, now
     double initialStaggering = 0; ///< the same at the first step
     double volumeWork = 0;        ///< elastic energy gained as stressed volumes grew: sum u dV
-    double gravityWork = 0;      ///< sum dt m_i b . (v_i + v*)/2
-    double tractionWork = 0;     ///< sum dt f_tau . (v_i + v*)/2
-    double apexVolume = 0;       ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double bodyForceWork = 0;    ///< work of prescribed body forces other than gravity
-    double kineticEnergy = 0;    ///< of the particles, now
+    double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2
+    double apexVolume = 0;        ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double bodyForceWork = 0;     ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0;     ///< of the particles, now
     double initialKineticEnergy = 0;
     double initialStrainEnergy = 0;
     Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]
@@ -59,9 +60,9 @@ struct State
 {
     explicit State(int dim = 2) : particles(dim) { grid.dim = dim; }
 
-    double time = 0;       ///< [s]
-    Index step = 0;        ///< steps done since the start
-    double deltaT = 0;     ///< last time step used [s]; 0 before the first
+    double time = 0;   ///< [s]
+    Index step = 0;    ///< steps done since the start
+    double deltaT = 0; ///< last time step used [s]; 0 before the first
     /// Largest det F of particles that carry stress, for the wave speed; adaptive steps follow it.
     double largestJacobian = 1;
     double stepFactor = 1; ///< share of the adaptive time step the monitor allows, 1 while nothing grows

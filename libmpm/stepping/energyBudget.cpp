@@ -53,11 +53,9 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork +
-           (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
-           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
-           l.dampingDissipation - l.wallLoss -
-           l.splitMergeLoss - l.transferLoss;
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork + (l.staggering - l.initialStaggering) -
+           (l.kineticEnergy - l.initialKineticEnergy) - (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation -
+           l.frictionDissipation - l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -128,10 +126,21 @@ std::vector<double> historyRow(const state::State& s, const Totals& t, const Ste
 
 const std::vector<std::string>& budgetColumns()
 {
-    static const std::vector<std::string> columns = {
-        "time",     "kineticChange",  "strainChange", "plasticDissipation", "frictionDissipation", "dampingDissipation",
-        "wallLoss", "splitMergeLoss", "transferLoss", "gravityWork",        "tractionWork",        "bodyForceWork",
-        "volumeWork", "staggering", "residual"};
+    static const std::vector<std::string> columns = {"time",
+                                                     "kineticChange",
+                                                     "strainChange",
+                                                     "plasticDissipation",
+                                                     "frictionDissipation",
+                                                     "dampingDissipation",
+                                                     "wallLoss",
+                                                     "splitMergeLoss",
+                                                     "transferLoss",
+                                                     "gravityWork",
+                                                     "tractionWork",
+                                                     "bodyForceWork",
+                                                     "volumeWork",
+                                                     "staggering",
+                                                     "residual"};
     return columns;
 }
 

@@ -152,9 +152,9 @@ class ExplicitStepper : public Stepper
     } work_;
     double smallestMass_ = 0;
     std::vector<std::array<double, 2>> moduli_; ///< K and G of each material
-    bool arranged_ = false;  ///< tiles belong to the particles as they stand
-    bool projected_ = false; ///< windows hold the first projection of the coming step
-    bool stray_ = false;     ///< the last projection left particles out
+    bool arranged_ = false;                     ///< tiles belong to the particles as they stand
+    bool projected_ = false;                    ///< windows hold the first projection of the coming step
+    bool stray_ = false;                        ///< the last projection left particles out
     StepReport report_;
     PassTimes times_;            ///< of the parts with a clock of their own
     PassTimes sampled_;          ///< of the parts of particle passes, in the steps that were sampled

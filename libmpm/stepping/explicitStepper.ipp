@@ -261,11 +261,12 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
     }
 }
 
-/// The stress works on three velocities: v_i and v* in the nodal equations, w in the strains. What it does on the changes
-/// that projections make between them is lost in transfer, half of it belonging to either end of a step:
+/// The stress works on three velocities: v_i and v* in the nodal equations, w in the strains. What it does on the
+/// changes that projections make between them is lost in transfer, half of it belonging to either end of a step:
 ///     USL, MUSL    1/2 sigma_n : (D* - D_w) and, from one step to the next, 1/2 sigma_n : (D_i - D_w of the last step)
 ///     USF          1/2 sigma_n+1 : (D_i - D_w) and 1/2 sigma_n : (D* of the last step - D_w)
-/// What is left of the mismatch is a function of the state, the staggering: velocities live half a step off the stresses.
+/// What is left of the mismatch is a function of the state, the staggering: velocities live half a step off the
+/// stresses.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
 {
@@ -365,16 +366,22 @@ void ExplicitStepper<dim, Shape>::failOutside() const
     for (Index i = 0; i < p.size(); ++i)
     {
         Vector3 x{};
+        double vv = 0;
         std::string place, range;
         for (int a = 0; a < dim; ++a)
         {
             x[a] = p.x[a][std::size_t(i)];
+            vv += p.v[a][std::size_t(i)] * p.v[a][std::size_t(i)];
             place += fmt::format("{}{:g}", a ? ", " : "", x[a]);
             range += fmt::format("{}[{:g}, {:g}]", a ? " x " : "", box.origin[a], box.upper(a));
         }
+        if (!std::isfinite(vv))
+            fail(i, "has no finite velocity any more: a smaller deltaT is needed");
         if (!box.contains(x))
-            fail(i, fmt::format("lies at ({}), outside the grid {}: enlarge min and max in system/gridDict", place,
-                                range));
+            throw OutsideGrid(fmt::format("step {} at time {:.9g} s: particle {} lies at ({}), outside the grid {}, and "
+                                          "moves at {:.3g} m/s: if that is as it should be, enlarge min and max in "
+                                          "system/gridDict",
+                                          state_.step, state_.time, p.id[std::size_t(i)], place, range, std::sqrt(vv)));
     }
     throw StepError("a particle just sorted lies outside the nodes its key stands for"); // would be our own mistake
 }

@@ -31,23 +31,22 @@ Monitor::Monitor(const state::State& state, const Scene& scene, const MonitorRul
     extremes_.nodalMass = std::numeric_limits<double>::infinity();
 }
 
-std::string Monitor::look(const state::State& state, const StepReport& report, double waveSpeed)
+Finding Monitor::look(const state::State& state, const StepReport& report, double waveSpeed)
 {
     extremes_.jacobian = std::min(extremes_.jacobian, report.smallestJacobian);
-    extremes_.courant =
-        std::max(extremes_.courant, (waveSpeed + report.largestSpeed) * state.deltaT / state.grid.h);
+    extremes_.courant = std::max(extremes_.courant, (waveSpeed + report.largestSpeed) * state.deltaT / state.grid.h);
     extremes_.nodalMass = std::min(extremes_.nodalMass, report.lightestNode / fullNode_);
     extremes_.yieldViolation = std::max(extremes_.yieldViolation, report.maxYieldViolation);
-    if (const auto text = energy(state.ledger, report); !text.empty())
-        return text;
+    if (auto finding = energy(state.ledger, report); !finding.text.empty())
+        return finding;
     if (report.maxYieldViolation > yieldTolerance)
-        return fmt::format("stress lies {:g} of its size outside the yield surface: the material's parameters are "
-                           "beyond what the law can resolve",
-                           report.maxYieldViolation);
+        return {fmt::format("stress lies {:g} of its size outside the yield surface: the material's parameters are "
+                            "beyond what the law can resolve",
+                            report.maxYieldViolation)};
     return balance(state, report);
 }
 
-std::string Monitor::energy(const state::Ledger& l, const StepReport& report)
+Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
     const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork;
     const double dissipated =
@@ -58,21 +57,22 @@ std::string Monitor::energy(const state::Ledger& l, const StepReport& report)
     const double known = start + std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) +
                          std::abs(dissipated) + std::max(0.0, l.transferLoss);
     if (!std::isfinite(nowhere))
-        return "energy is no longer a finite number: a smaller deltaT is needed";
+        return {"energy is no longer a finite number: a smaller deltaT is needed", true};
     if (known > 0)
         extremes_.energyFromNowhere = std::max(extremes_.energyFromNowhere, nowhere / known);
     if (!(nowhere > rule_.energyTolerance * known))
         return {};
-    return fmt::format("{:.3g} J have come from nowhere, {:.0f} % of the energy that was there or supplied (allowed: "
-                       "{:g} %): the step is unstable here; a smaller deltaT, or adjustTimeStep yes, is needed",
-                       nowhere, 100 * nowhere / known, 100 * rule_.energyTolerance);
+    return {fmt::format("{:.3g} J have come from nowhere, {:.0f} % of the energy that was there or supplied (allowed: "
+                        "{:g} %): the step is unstable here; a smaller deltaT, or adjustTimeStep yes, is needed",
+                        nowhere, 100 * nowhere / known, 100 * rule_.energyTolerance)};
 }
 
-std::string Monitor::balance(const state::State& state, const StepReport& report) const
+Finding Monitor::balance(const state::State& state, const StepReport& report) const
 {
     const auto& l = state.ledger;
     double scale = std::sqrt(2 * mass_ * l.kineticEnergy);
-    for (const auto* part : {&l.initialMomentum, &l.wallImpulse, &l.gravityImpulse, &l.tractionImpulse, &l.dampingImpulse})
+    for (const auto* part :
+         {&l.initialMomentum, &l.wallImpulse, &l.gravityImpulse, &l.tractionImpulse, &l.dampingImpulse})
         scale += length(*part);
     Vector3 off{};
     for (std::size_t a = 0; a < 3; ++a)
@@ -80,7 +80,8 @@ std::string Monitor::balance(const state::State& state, const StepReport& report
                  l.tractionImpulse[a] - l.dampingImpulse[a];
     if (bodyForces_ || length(off) <= momentumTolerance * scale)
         return {};
-    return fmt::format("{:.3g} N s of momentum have come from nowhere, {:.1g} of what there is: a mistake of the solver",
-                       length(off), length(off) / scale);
+    return {
+        fmt::format("{:.3g} N s of momentum have come from nowhere, {:.1g} of what there is: a mistake of the solver",
+                    length(off), length(off) / scale)};
 }
 } // namespace mpm::stepping

@@ -5,10 +5,11 @@
 ///     energy      used = K + U + plastic + friction + damping + walls + splitting, K kinetic and U strain energy now;
 ///                 given = K + U at the start + work of gravity, loads, body forces + volumeWork (energyBudget.hpp).
 ///                 used - given is energy that came from nowhere. Allowed: energyTolerance times all energy that was
-///                 there, supplied or dissipated. What is lost in transfer and what time integration holds back for half
-///                 a step (staggering) is left out of `used`, so that an unstable step and a transfer that makes energy
-///                 are both seen: the budget's residual would close over either.
-///     balance     |momentum - initial - impulses of walls, gravity, loads, damping| <= 1e-8 of their sizes, except with
+///                 there, supplied or dissipated. What is lost in transfer and what time integration holds back for
+///                 half a step (staggering) is left out of `used`, so that an unstable step and a transfer that makes
+///                 energy are both seen: the budget's residual would close over either.
+///     balance     |momentum - initial - impulses of walls, gravity, loads, damping| <= 1e-8 of their sizes, except
+///     with
 ///                 prescribed body forces: anything else is a mistake of ours.
 ///     yield       f <= 1e-6 max(|sigma|, strength) after each return to the yield surface
 ///     finite      all of these are numbers
@@ -55,20 +56,26 @@ struct Extremes
     double energyFromNowhere = 0; ///< largest share, as compared with energyTolerance
 };
 
+/// What is wrong with a step and what could help; an empty text while all is well.
+struct Finding
+{
+    std::string text;
+    bool fatal = false; ///< numbers are no longer finite: nobody can go on from there
+};
+
 class Monitor
 {
   public:
     Monitor(const state::State& state, const Scene& scene, const MonitorRule& rule);
 
-    /// After a step: what is wrong with it and what could help, in one or two sentences; empty while all is well.
-    /// waveSpeed [m/s] is for the Courant number.
-    std::string look(const state::State& state, const StepReport& report, double waveSpeed);
+    /// After a step. waveSpeed [m/s] is for the Courant number.
+    Finding look(const state::State& state, const StepReport& report, double waveSpeed);
 
     const Extremes& extremes() const { return extremes_; }
 
   private:
-    std::string energy(const state::Ledger& ledger, const StepReport& report);
-    std::string balance(const state::State& state, const StepReport& report) const;
+    Finding energy(const state::Ledger& ledger, const StepReport& report);
+    Finding balance(const state::State& state, const StepReport& report) const;
 
     MonitorRule rule_;
     bool bodyForces_;

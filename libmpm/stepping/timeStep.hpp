@@ -1,9 +1,9 @@
 #pragma once
 /// How large a time step may be.
 ///
-/// Stability (METHOD, Stability limit): (c_p + |v|) dt/h must stay under a bound of the scheme; c_p = sqrt(M/rho) is the
-/// largest P-wave speed, |v| the largest particle speed, h the cell size. With |v| particles cannot pass the reach of
-/// a wave in one step, which impacts beyond the wave speed need. Bounds of c_p dt/h, for 2D and 3D:
+/// Stability (METHOD, Stability limit): (c_p + |v|) dt/h must stay under a bound of the scheme; c_p = sqrt(M/rho) is
+/// the largest P-wave speed, |v| the largest particle speed, h the cell size. With |v| particles cannot pass the reach
+/// of a wave in one step, which impacts beyond the wave speed need. Bounds of c_p dt/h, for 2D and 3D:
 ///                    linear                        GIMP, splines
 ///     USL            min(0.36, 1.2 sqrt(m_i/m))    0.36
 ///     USF, MUSL      0.85                          1.4, in 3D 1.2
@@ -11,8 +11,9 @@
 ///
 /// They lie under the smallest critical values of free elastic blocks over positions of the particles in their cells,
 /// lattices and disordered ones, one particle a cell and many, Poisson's ratio 0 to 0.499 (spectral radius of the step
-/// itself by power iteration, tests/verification/stabilityLimit.cpp). Bars in one dimension bear more: 0.65 to 0.75 with
-/// USL, 1.41 to 2.3 with USF and MUSL; blocks near incompressibility bear least, as shear and pressure modes share nodes.
+/// itself by power iteration, tests/verification/stabilityLimit.cpp). Bars in one dimension bear more: 0.65 to 0.75
+/// with USL, 1.41 to 2.3 with USF and MUSL; blocks near incompressibility bear least, as shear and pressure modes share
+/// nodes.
 #include "stepping/stepper.hpp"
 
 #include <string>

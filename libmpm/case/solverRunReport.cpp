@@ -1,0 +1,153 @@
+// What a run of the solver says before its first step and after its last.
+#include "base/clock.hpp"
+#include "base/memory.hpp"
+#include "base/version.hpp"
+#include "case/provenance.hpp"
+#include "case/solverRun.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace mpm::cases
+{
+namespace
+{
+std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
+{
+    const auto place =
+        fmt::format("{} = {:g} m", axisNames[wall.axis], grid.origin[wall.axis] + grid.h * double(wall.plane));
+    switch (wall.type)
+    {
+    case nodal::WallType::fixed:
+        return "fixed at " + place;
+    case nodal::WallType::roller:
+        return "roller at " + place;
+    case nodal::WallType::friction:
+        return fmt::format("friction {:g} at {}", wall.mu, place);
+    }
+    return place;
+}
+
+void line(const std::string& what, const std::string& text)
+{
+    fmt::print("  {:<14} {}\n", what, text);
+}
+} // namespace
+
+void SolverRun::banner() const
+{
+    const auto& s = scene_.scene;
+    fmt::print("mpmSolve, libmpm {} ({}, {})\n", projectVersion(), gitRevision(), kernelText());
+    line("case", std::filesystem::weakly_canonical(folder_.folder()).filename().string());
+    line("particles",
+         fmt::format("{} in {} dimensions, from time {}", state_.particles.size(), state_.particles.dim, lastStored_));
+    line("grid", state_.particles.dim == 2 ? fmt::format("{} x {} cells of {:.6g} m", state_.grid.cells[0],
+                                                         state_.grid.cells[1], state_.grid.h)
+                                           : fmt::format("{} x {} x {} cells of {:.6g} m", state_.grid.cells[0],
+                                                         state_.grid.cells[1], state_.grid.cells[2], state_.grid.h));
+    line("method", fmt::format("{}, {}, FLIP{}", scene_.shape, stepping::stressUpdateName(s.stressUpdate),
+                               s.picRate > 0 ? fmt::format(" with {:g} 1/s of PIC", s.picRate) : ""));
+    for (const auto& material : s.materials)
+        line("material", fmt::format("{}: {}, density {:g} kg/m^3, c_p {:.1f} m/s", material.name,
+                                     material.law->describe(), material.density, material.waveSpeed()));
+    if (s.gravity)
+        line("gravity", fmt::format("({:g} {:g} {:g}) m/s^2", (*s.gravity)[0], (*s.gravity)[1], (*s.gravity)[2]));
+    if (s.relaxationTime)
+        line("damping", fmt::format("viscous, relaxation time {:g} s", *s.relaxationTime));
+    for (const auto& wall : s.walls)
+        line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
+    for (const auto& load : s.loads)
+        line("load", load.pressure ? fmt::format("{}: pressure {:g} Pa", load.patch, load.magnitude)
+                                   : fmt::format("{}: traction ({:g} {:g} {:g}) Pa", load.patch, load.traction[0],
+                                                 load.traction[1], load.traction[2]));
+    if (s.splitting)
+        line("splitting", fmt::format("{} at {:g} seeding spacings, every {} steps",
+                                      s.splitting->mode == splitting::Mode::fourWay ? "fourWay" : "stretched",
+                                      s.splitting->threshold, s.splitting->interval));
+    if (done())
+        line("time", fmt::format("{:g} s; endTime {:g} s is reached, there is nothing to do", state_.time,
+                                 runTime_->endTime()));
+    else
+        line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
+                                 runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
+    line("stability", fmt::format("deltaT <= {:.4g} s ((c_p + |v|) deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
+                                  limit_.courant, limit_.courant * stepSize() / limit_.deltaT));
+    line("monitor", monitor_->describe());
+    line("threads", fmt::format("{}", options_.threadCount()));
+    for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
+        if (!note.empty())
+            line("note", note);
+}
+
+void SolverRun::warnings() const
+{
+    const auto& ledger = state_.ledger;
+    const auto& scene = scene_.scene;
+    const Index steps = state_.step - firstStep_;
+    if (stepper_->report().cappedDomains > 0)
+        line("note", fmt::format("{} particle domains are held at {} cells; split them earlier or seed finer",
+                                 stepper_->report().cappedDomains, scene_.shape == "cpGIMP" ? "two" : "one"));
+    if (ledger.splitsPutOff > 0)
+        line("note", fmt::format("{} particles wait at a wall for their split", ledger.splitsPutOff));
+    if (ledger.splitsCapped > 0)
+        line("note",
+             fmt::format("{} particles are longer than the threshold, at the cap of maxGeneration or maxParticles",
+                         ledger.splitsCapped));
+    bool friction = false;
+    for (const auto& wall : scene.walls)
+        friction = friction || (wall.type == nodal::WallType::friction && wall.mu > 0);
+    if (friction && ledger.wallContacts == 0)
+        line("note", fmt::format("friction: 0 contacts in {} steps", steps));
+    if (scene.splitting && ledger.splits == 0)
+        line("note", fmt::format("splitting: 0 particles split in {} steps", steps));
+}
+
+void SolverRun::summary()
+{
+    {
+        const Clock clock(profile_.output);
+        finishWriting();
+    }
+    progress_->finish();
+    const auto t = stepping::totals(state_, scene_.scene.materials);
+    const auto& l = state_.ledger;
+    const double supplied = std::abs(l.gravityWork + l.tractionWork + l.bodyForceWork);
+    const double mismatch = stepping::residual(l, t.strainEnergy);
+    const Index steps = state_.step - firstStep_;
+    const char* unit = state_.particles.dim == 2 ? "kJ/m" : "kJ";
+    fmt::print("\nDone: {} steps to {:g} s in {} ({} of it output)\n", steps, state_.time,
+               formatDuration(profile_.elapsed()), formatDuration(profile_.history + profile_.output));
+    line("speed", fmt::format("{:.1f} ns per particle and step", profile_.nsPerParticleStep(stepSeconds_)));
+    line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
+    if (const double memory = peakMemory(); memory > 0)
+        line("memory", fmt::format("{} at most, {:.0f} bytes a particle", formatBytes(memory),
+                                   memory / double(state_.particles.size())));
+    std::string extent;
+    for (int a = 0; a < state_.particles.dim; ++a)
+        extent += fmt::format("{} {:.3f} .. {:.3f} m{}", axisNames[a], t.extents.low[a], t.extents.high[a],
+                              a + 1 < state_.particles.dim ? ", " : " (particle centres)");
+    line("extent", extent);
+    line("energy",
+         fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
+                     t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
+                     l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
+    if (scene_.scene.relaxationTime)
+        line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
+    line("residual",
+         fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
+                     supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));
+    line("apex",
+         fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
+    if (runTime_->adjustable() && steps > 0)
+        line("time step", fmt::format("{:.4g} to {:.4g} s, mean {:.4g} s; adapting it took {:.2g} % of the run",
+                                      smallestStep_, largestStep_, (state_.time - firstTime_) / double(steps),
+                                      100 * adaptSeconds_ / profile_.elapsed()));
+    for (const auto& [what, text] : monitor_->summary(limit_))
+        line(what, text);
+    warnings();
+    line("last time", lastStored_);
+    fmt::print("\n{}", profile_.text(stepper_->times(), 2));
+    if (options_.has("profile"))
+        profile_.write(folder_.postProcessing() / "profile.csv", stepper_->times());
+}
+} // namespace mpm::cases
