@@ -172,6 +172,9 @@ void endRow(NodeRow<dim>& row, double inverseDt)
                 const Vector3& jt = row.walls->friction[std::size_t(i - row.begin)];
                 const double mean = 0.5 * (row.node[i][row.velocity + a] + row.node[i][row.trial + a]);
                 row.sums->wallLoss -= jn[a] * mean;
+                if (jn[a] != 0) // the force a wall balances works on v*, as strains see it, not on v_i
+                    row.sums->wallLoss -= 0.5 * row.dt * (*row.projected)[std::size_t(i - row.begin)][row.trial + a] *
+                                          (row.node[i][row.velocity + a] - row.node[i][row.trial + a]);
                 row.sums->frictionLoss -= jt[a] * mean;
                 row.sums->wallImpulse[a] += jn[a] + jt[a];
             }

@@ -17,7 +17,7 @@ std::pair<Index, Index> WallEffect<dim>::range(const NodeRow<dim>& row) const
 }
 
 template <int dim>
-void WallEffect<dim>::push(NodeRow<dim>& row) const
+void WallEffect<dim>::push(NodeRow<dim>& row, bool keepContact) const
 {
     const auto [begin, end] = range(row);
     if (begin == end)
@@ -27,7 +27,8 @@ void WallEffect<dim>::push(NodeRow<dim>& row) const
     {
         Record& r = row.node[i];
         const double into = wall_.side * r[row.trial + wall_.axis];
-        if (!row.carries(i) || (wall_.separation && !(into > 0)))
+        const bool inContact = into > 0 || (keepContact && r[row.velocity + wall_.axis] == 0);
+        if (!row.carries(i) || (wall_.separation && !inContact))
             continue;
         const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)

@@ -146,6 +146,9 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         nodal::NodeSums unbooked;
         auto* const booked = row.sums;
         row.sums = &unbooked;
+        if (secondProjection)
+            for (const auto& wall : walls_)
+                wall.keepContact(row);
         applyWalls(row);
         row.sums = booked;
     });
