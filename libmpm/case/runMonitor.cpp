@@ -47,7 +47,6 @@ void RunMonitor::remember(state::State& state)
     if (good_ && state.step % recovery == 0)
         state.stepFactor = std::min(1.0, 2 * state.stepFactor);
     good_ = std::make_unique<state::State>(state);
-    halvings_ = 0;
 }
 
 std::string RunMonitor::look(const state::State& state, const stepping::StepReport& report, double waveSpeed)
@@ -65,11 +64,10 @@ std::string RunMonitor::look(const state::State& state, const stepping::StepRepo
 
 bool RunMonitor::goBack(state::State& state)
 {
-    if (!good_ || halvings_ == mostHalvings)
+    if (!good_ || good_->stepFactor <= smallestAllowed)
         return false;
     good_->stepFactor *= 0.5;
     smallestFactor_ = std::min(smallestFactor_, good_->stepFactor);
-    ++halvings_;
     ++wentBack_;
     state = *good_;
     return true;
@@ -88,7 +86,7 @@ std::vector<std::pair<std::string, std::string>> RunMonitor::summary(const stepp
     const auto& e = monitor_->extremes();
     std::vector<std::pair<std::string, std::string>> lines;
     lines.emplace_back("monitor",
-                       fmt::format("det F >= {:.3g}, (c_p + |v|) deltaT/h <= {:.3f}, nodal mass >= {:.2g} of "
+                       fmt::format("det F >= {:.3g}, (c_p + 2 |v|) deltaT/h <= {:.3f}, nodal mass >= {:.2g} of "
                                    "a full node, yield <= {:.1g}, energy from nowhere <= {:.2g} %",
                                    e.jacobian, e.courant, e.nodalMass, std::max(0.0, e.yieldViolation),
                                    100 * e.energyFromNowhere));
@@ -99,7 +97,7 @@ std::vector<std::pair<std::string, std::string>> RunMonitor::summary(const stepp
     if (warnings_ > 0)
         lines.emplace_back("note", fmt::format("the monitor found fault with {} steps", warnings_));
     if (e.courant > 1.000001 * limit.courant)
-        lines.emplace_back("note", fmt::format("(c_p + |v|) deltaT/h reached {:.3f}, over the stability limit {:.2f}",
+        lines.emplace_back("note", fmt::format("(c_p + 2 |v|) deltaT/h reached {:.3f}, over the stability limit {:.2f}",
                                                e.courant, limit.courant));
     return lines;
 }

@@ -4,7 +4,7 @@
 ///
 /// adapt: every 50 steps the state is copied in memory (the price: its size again). On a finding, or when the step
 /// itself fails, the run goes back to the copy and takes half the time step (State::stepFactor) from there; every 200
-/// steps the factor doubles until it is 1 again. After six halvings of one stretch the run ends as with `stop`.
+/// steps the factor doubles until it is 1 again. Where 1/64 of the step does not help, the run ends as with `stop`.
 /// A run cut by a restart is bitwise the uninterrupted one unless it goes back over the cut.
 #include "dictionary/dictionary.hpp"
 #include "stepping/monitor.hpp"
@@ -27,7 +27,7 @@ class RunMonitor
     void remember(state::State& state);
     /// After a step; empty: go on. `warn` prints a finding here, once each.
     std::string look(const state::State& state, const stepping::StepReport& report, double waveSpeed);
-    /// adapt: puts the last copy back with half the step factor. False if it was halved too often, or not asked for.
+    /// adapt: puts the last copy back with half the step factor. False if it has come to 1/64, or was not asked for.
     bool goBack(state::State& state);
 
     /// "stop at 25 % of energy from nowhere".
@@ -37,12 +37,11 @@ class RunMonitor
 
   private:
     static constexpr Index stride = 50, recovery = 200;
-    static constexpr int mostHalvings = 6;
+    static constexpr double smallestAllowed = 1.0 / 64;
 
     stepping::MonitorRule rule_;
     std::unique_ptr<stepping::Monitor> monitor_;
     std::unique_ptr<state::State> good_;
-    int halvings_ = 0; ///< of the stretch since the copy
     Index wentBack_ = 0, warnings_ = 0;
     double smallestFactor_ = 1;
 };

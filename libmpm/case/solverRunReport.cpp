@@ -70,7 +70,7 @@ void SolverRun::banner() const
     else
         line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
-    line("stability", fmt::format("deltaT <= {:.4g} s ((c_p + |v|) deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
+    line("stability", fmt::format("deltaT <= {:.4g} s ((c_p + 2 |v|) deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
                                   limit_.courant, limit_.courant * stepSize() / limit_.deltaT));
     line("monitor", monitor_->describe());
     line("threads", fmt::format("{}", options_.threadCount()));

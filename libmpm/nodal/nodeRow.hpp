@@ -19,11 +19,11 @@ struct NodeSums
     double kineticAfter = 0;                                   ///< sum m v*^2/2 [J]
     double gravityWork = 0;                                    ///< sum dt m b . (v_i + v*)/2 [J]
     double tractionWork = 0;                                   ///< sum dt f_tau . (v_i + v*)/2 [J]
-    double frictionLoss = 0;                                   ///< - sum J_t . (v_i + v*)/2 over friction walls [J]
+    double frictionLoss = 0;                                   ///< - sum J_t . v* over friction walls [J]
     double dampingLoss = 0;                                    ///< - sum J . (v_i + v*)/2 of damping [J]
     double forceWorkBefore = 0;                                ///< sum dt f . v_i over the projected forces [J]
     double forceWork = 0;                                      ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;                                       ///< the same for every other wall impulse J [J]
+    double wallLoss = 0;                                       ///< sum m (v_i - v*)^2/2 where walls hold [J]
     Index contacts = 0;                                        ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
@@ -168,15 +168,20 @@ void endRow(NodeRow<dim>& row, double inverseDt)
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
             {
-                const Vector3& jn = row.walls->other[std::size_t(i - row.begin)];
-                const Vector3& jt = row.walls->friction[std::size_t(i - row.begin)];
-                const double mean = 0.5 * (row.node[i][row.velocity + a] + row.node[i][row.trial + a]);
-                row.sums->wallLoss -= jn[a] * mean;
-                if (jn[a] != 0) // the force a wall balances works on v*, as strains see it, not on v_i
-                    row.sums->wallLoss -= 0.5 * row.dt * (*row.projected)[std::size_t(i - row.begin)][row.trial + a] *
-                                          (row.node[i][row.velocity + a] - row.node[i][row.trial + a]);
-                row.sums->frictionLoss -= jt[a] * mean;
-                row.sums->wallImpulse[a] += jn[a] + jt[a];
+                const double jn = row.walls->other[std::size_t(i - row.begin)][a];
+                const double jt = row.walls->friction[std::size_t(i - row.begin)][a];
+                if (jn == 0 && jt == 0)
+                    continue;
+                // Forces at a node that a wall holds work on v*, as strains see it; what the wall takes from v_i beyond
+                // that, m (v_i - v*)^2/2, is an impact.
+                const double before = row.node[i][row.velocity + a], after = row.node[i][row.trial + a];
+                const double held =
+                    row.dt * (*row.projected)[std::size_t(i - row.begin)][row.trial + a] * (before - after);
+                const double friction = -jt * after;
+                row.sums->forceWorkBefore -= held;
+                row.sums->frictionLoss += friction;
+                row.sums->wallLoss -= 0.5 * ((jn + jt) * (before + after) + held) + friction;
+                row.sums->wallImpulse[a] += jn + jt;
             }
     for (Index i = row.begin; i < row.end; ++i)
     {

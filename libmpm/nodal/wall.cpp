@@ -17,7 +17,7 @@ std::pair<Index, Index> WallEffect<dim>::range(const NodeRow<dim>& row) const
 }
 
 template <int dim>
-void WallEffect<dim>::push(NodeRow<dim>& row, bool keepContact) const
+void WallEffect<dim>::push(NodeRow<dim>& row) const
 {
     const auto [begin, end] = range(row);
     if (begin == end)
@@ -27,8 +27,7 @@ void WallEffect<dim>::push(NodeRow<dim>& row, bool keepContact) const
     {
         Record& r = row.node[i];
         const double into = wall_.side * r[row.trial + wall_.axis];
-        const bool inContact = into > 0 || (keepContact && r[row.velocity + wall_.axis] == 0);
-        if (!row.carries(i) || (wall_.separation && !inContact))
+        if (!row.carries(i) || (wall_.separation && !(into > 0)))
             continue;
         const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)
@@ -66,6 +65,19 @@ void WallEffect<dim>::rub(NodeRow<dim>& row) const
                 r[row.trial + a] *= keep;
             }
         row.sums->contacts += 1;
+    }
+}
+
+template <int dim>
+void WallEffect<dim>::follow(NodeRow<dim>& row) const
+{
+    const auto [begin, end] = range(row);
+    for (Index i = begin; i < end; ++i)
+    {
+        Record& r = row.node[i];
+        for (int a = 0; a < dim; ++a)
+            if (r[row.velocity + a] == 0 || (a == wall_.axis && wall_.side * r[row.trial + a] > 0))
+                r[row.trial + a] = 0;
     }
 }
 

@@ -29,18 +29,18 @@ class WallEffect
     explicit WallEffect(const Wall& wall) : wall_(wall) {}
 
     /// First, for all walls: takes away what moves into the wall (fixed: all velocity) from the lanes `trial`.
-    void push(NodeRow<dim>& row) const { push(row, false); }
-    /// The same for velocities strains are taken from, where lanes `velocity` hold v*: a wall that pushes in this step
-    /// is in contact, so it holds them even if they point away from it. If it let go, strains would not follow v*, and
-    /// a body that bounces off would keep its stress and gain energy.
-    void keepContact(NodeRow<dim>& row) const { push(row, true); }
+    void push(NodeRow<dim>& row) const;
     /// Then, for all walls: friction on what is left, which no longer moves into any wall. So the order of walls in the
     /// dictionary does not matter.
     void rub(NodeRow<dim>& row) const;
+    /// For velocities w that strains are taken from, in the lanes `trial`, with v* in the lanes `velocity`: what the walls
+    /// have brought to rest in v* rests in w, and nothing moves into the wall. Contact and stick are decided once a step:
+    /// if w decided anew, a wall that pushes would let go whenever w points away from it, strains would not follow v*,
+    /// and a body that bounces off, or presses on the wall at rest, would gain energy in every swing.
+    void follow(NodeRow<dim>& row) const;
     const Wall& wall() const { return wall_; }
 
   private:
-    void push(NodeRow<dim>& row, bool keepContact) const;
     std::pair<Index, Index> range(const NodeRow<dim>& row) const;
     Wall wall_;
 };

@@ -19,7 +19,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("pendingWork", ledger.pendingWork, "J");
     visit("staggering", ledger.staggering, "J");
     visit("initialStaggering", ledger.initialStaggering, "J");
-    visit("volumeWork", ledger.volumeWork, "J");
+    visit("finiteStrainWork", ledger.finiteStrainWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");

@@ -1,41 +1,14 @@
 // The work of a particle pass on one tile and one chunk: weights, velocity, strain, stress, domains, projection.
 #pragma once
 #include "base/clock.hpp"
-#include "constitutive/kinematics.hpp"
 #include "stepping/explicitStepper.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 namespace mpm::stepping
 {
-/// sum V sigma : dEps over the lanes of a chunk.
-template <int dim>
-double workOfStrain(const constitutive::Chunk<dim>& chunk, const double (&volume)[lanes])
-{
-    alignas(64) double density[lanes] = {};
-    for (int k = 0; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            density[l] += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
-    return transfer::sumOfProducts(volume, density);
-}
-
-/// Elastic energy density 1/2 sigma : C^-1 : sigma in every lane.
-template <int dim>
-void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&bulk)[lanes], const double (&shear)[lanes],
-                   double (&energy)[lanes])
-{
-    for (int l = 0; l < lanes; ++l)
-    {
-        double sigma[stressSize<dim>];
-        for (int k = 0; k < stressSize<dim>; ++k)
-            sigma[k] = chunk.stress[k][l];
-        energy[l] = constitutive::elasticEnergyDensity<dim>(sigma, bulk[l], shear[l]);
-    }
-}
-
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::lap(Workspace& ws, double PassTimes::*part)
 {
@@ -307,119 +280,4 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
     }
 }
 
-/// F, V and stress from the velocity gradient.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int count, double dt)
-{
-    auto& p = state_.particles;
-    auto& sums = ws.sums;
-    auto& chunk = ws.law;
-    chunk.count = count;
-    for (int k = 0; k < dim * dim; ++k)
-        transfer::loadLanes(p.F[k].data() + first, count, ws.F[k]);
-    for (int k = 0; k < stressSize<dim>; ++k)
-        transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
-    constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
-    transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
-    sums.strainWorkBefore += workOfStrain(chunk, ws.volumeBefore);
-    loadModuli(ws, first, count);
-    alignas(64) double energyBefore[lanes], energy[lanes];
-    elasticEnergy(chunk, ws.bulk, ws.shear, energyBefore);
-    ws.ahead.some(4);
-    constitutive::advanceDeformation(ws.L, dt, ws.F);
-    ws.ahead.some(4);
-    constitutive::determinant(ws.F, ws.J);
-    constitutive::rotateStress(ws.L, dt, chunk.stress);
-    ws.ahead.some(5);
-    callLaws(first, count, chunk);
-    ws.ahead.some(5);
-
-    transfer::loadLanesOrZero(p.volume0.data() + first, count, ws.volume);
-    for (int l = 0; l < lanes; ++l)
-        ws.volume[l] *= ws.J[l];
-    constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
-    if (!transfer::allWithin(ws.J, none, immense) && sums.badParticle < 0)
-        for (int l = 0; l < count; ++l)
-            if (!(ws.J[l] >= none && ws.J[l] <= immense))
-            {
-                sums.badParticle = first + l;
-                break;
-            }
-    sums.smallestJacobian = std::min(sums.smallestJacobian, transfer::smallest(ws.J));
-    transfer::storeLanes(p.volume.data() + first, count, ws.volume);
-    for (int k = 0; k < dim * dim; ++k)
-        transfer::storeLanes(p.F[k].data() + first, count, ws.F[k]);
-    for (int k = 0; k < stressSize<dim>; ++k)
-        transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
-
-    alignas(64) double stiffJ[lanes];
-    for (int l = 0; l < lanes; ++l)
-        stiffJ[l] = chunk.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
-    sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
-    sums.strainWork += workOfStrain(chunk, ws.volume);
-    elasticEnergy(chunk, ws.bulk, ws.shear, energy);
-    sums.strainEnergy += transfer::sumOfProducts(ws.volume, energy);
-    for (int l = 0; l < lanes; ++l)
-    {
-        energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * (ws.volume[l] - ws.volumeBefore[l]);
-        ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
-    }
-    sums.volumeWork += transfer::sumOfLanes(energyBefore);
-    sums.plasticWork += transfer::sumOfProducts(ws.volumeBefore, chunk.plasticWork);
-    sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
-    sums.apexReturns += chunk.apexReturns;
-    sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
-    if constexpr (Shape::followsStretch)
-        updateDomains(ws, first, count);
-}
-
-/// K and G of each lane's material; ones beyond the particles.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int count) const
-{
-    const std::int32_t* material = state_.particles.material.data() + first;
-    std::fill_n(ws.bulk, lanes, moduli_[std::size_t(material[0])][0]);
-    std::fill_n(ws.shear, lanes, moduli_[std::size_t(material[0])][1]);
-    for (int l = 1; l < count; ++l)
-        if (material[l] != material[0])
-        {
-            ws.bulk[l] = moduli_[std::size_t(material[l])][0];
-            ws.shear[l] = moduli_[std::size_t(material[l])][1];
-        }
-}
-
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const
-{
-    const std::int32_t* material = state_.particles.material.data() + first;
-    std::int32_t different = 0;
-    for (int l = 0; l < count; ++l)
-        different |= material[l] ^ material[0];
-    if (different == 0)
-    {
-        scene_.materials[std::size_t(material[0])].law->update(chunk);
-        return;
-    }
-    const auto [low, high] = std::minmax_element(material, material + count);
-    const constitutive::Chunk<dim> before = chunk;
-    for (std::int32_t m = *low; m <= *high; ++m)
-    {
-        if (std::find(material, material + count, m) == material + count)
-            continue;
-        constitutive::Chunk<dim> own = before;
-        scene_.materials[std::size_t(m)].law->update(own);
-        for (int l = 0; l < count; ++l)
-            if (material[l] == m)
-            {
-                for (int k = 0; k < stressSize<dim>; ++k)
-                    chunk.stress[k][l] = own.stress[k][l];
-                chunk.plasticWork[l] = own.plasticWork[l];
-                chunk.apexStrain[l] = own.apexStrain[l];
-                chunk.yield[l] = own.yield[l];
-                chunk.region[l] = own.region[l];
-            }
-    }
-    chunk.apexReturns = int(std::count(chunk.region, chunk.region + count, constitutive::Region::apex));
-}
 } // namespace mpm::stepping

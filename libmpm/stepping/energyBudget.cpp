@@ -53,7 +53,7 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork + (l.staggering - l.initialStaggering) -
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork + (l.staggering - l.initialStaggering) -
            (l.kineticEnergy - l.initialKineticEnergy) - (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation -
            l.frictionDissipation - l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
 }
@@ -138,7 +138,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "gravityWork",
                                                      "tractionWork",
                                                      "bodyForceWork",
-                                                     "volumeWork",
+                                                     "finiteStrainWork",
                                                      "staggering",
                                                      "residual"};
     return columns;
@@ -159,7 +159,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.gravityWork,
             l.tractionWork,
             l.bodyForceWork,
-            l.volumeWork,
+            l.finiteStrainWork,
             l.staggering - l.initialStaggering,
             residual(l, t.strainEnergy)};
 }

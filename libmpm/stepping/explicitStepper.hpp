@@ -59,7 +59,7 @@ class ExplicitStepper : public Stepper
         double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
         double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
         double strainWork = 0;       ///< the same with stress and volume after it
-        double strainEnergy = 0, volumeWork = 0;
+        double strainEnergy = 0, finiteStrainWork = 0;
         Vector3 momentum{};
         double fastest = 0; ///< max v.v
         double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
@@ -102,6 +102,13 @@ class ExplicitStepper : public Stepper
     void sumNodes(nodal::NodeRow<dim>& row, const state::Block& block);
     void solveNodes(double dt);
     void strainVelocities(double dt, bool secondProjection);
+    void setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const;
+    void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
+    /// The first projection of a step. USF needs forces only where walls ask for contact before the strains.
+    Project firstProjection() const
+    {
+        return scene_.stressUpdate == StressUpdate::USF && walls_.empty() ? Project::momentum : Project::forces;
+    }
     void particlePass(double dt, const Pass& pass);
     void moveSurfaces(double dt);
     void book(const Pass& pass);

@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "stepping/chunkWork.ipp"
+#include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
 
 #include <cmath>
@@ -69,7 +70,7 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .then = Project::forces});
         solveNodes(dt);
         moveSurfaces(dt);
-        particlePass(dt, {.velocity = true, .moves = true, .then = Project::momentum});
+        particlePass(dt, {.velocity = true, .moves = true, .then = firstProjection()});
         break;
     }
     bookStressWork(dt);
@@ -144,7 +145,7 @@ void ExplicitStepper<dim, Shape>::buildTiles()
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::project()
 {
-    const Project what = scene_.stressUpdate == StressUpdate::USF ? Project::momentum : Project::forces;
+    const Project what = firstProjection();
     if (!projected_ || stray_)
         particlePass(0, {.then = what});
     if (stray_) // particles have moved on since they were sorted
@@ -217,7 +218,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.strainWorkBefore += s.strainWorkBefore;
         total.strainWork += s.strainWork;
         total.strainEnergy += s.strainEnergy;
-        total.volumeWork += s.volumeWork;
+        total.finiteStrainWork += s.finiteStrainWork;
         for (int a = 0; a < dim; ++a)
             total.momentum[a] += s.momentum[a];
         total.fastest = std::max(total.fastest, s.fastest);
@@ -244,7 +245,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         work_.ofStrainsBefore = total.strainWorkBefore;
         work_.ofStrains = total.strainWork;
         ledger.plasticDissipation += total.plasticWork;
-        ledger.volumeWork += total.volumeWork;
+        ledger.finiteStrainWork += total.finiteStrainWork;
         report_.strainEnergy = total.strainEnergy;
         state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;
@@ -304,7 +305,7 @@ double ExplicitStepper<dim, Shape>::smallestNodalMassFraction()
     const double full = density * std::pow(state_.grid.h, dim);
     std::vector<double> smallest(grid_.blocks().size(), std::numeric_limits<double>::infinity());
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        if (scene_.stressUpdate == StressUpdate::USF)
+        if (firstProjection() == Project::momentum)
             sumNodes<transfer::Momentum>(row, block);
         else
             sumNodes<transfer::Forces>(row, block);

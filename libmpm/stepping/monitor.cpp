@@ -34,7 +34,7 @@ Monitor::Monitor(const state::State& state, const Scene& scene, const MonitorRul
 Finding Monitor::look(const state::State& state, const StepReport& report, double waveSpeed)
 {
     extremes_.jacobian = std::min(extremes_.jacobian, report.smallestJacobian);
-    extremes_.courant = std::max(extremes_.courant, (waveSpeed + report.largestSpeed) * state.deltaT / state.grid.h);
+    extremes_.courant = std::max(extremes_.courant, (waveSpeed + 2 * report.largestSpeed) * state.deltaT / state.grid.h);
     extremes_.nodalMass = std::min(extremes_.nodalMass, report.lightestNode / fullNode_);
     extremes_.yieldViolation = std::max(extremes_.yieldViolation, report.maxYieldViolation);
     if (auto finding = energy(state.ledger, report); !finding.text.empty())
@@ -48,7 +48,7 @@ Finding Monitor::look(const state::State& state, const StepReport& report, doubl
 
 Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
-    const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.volumeWork;
+    const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork;
     const double dissipated =
         l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.wallLoss + l.splitMergeLoss;
     const double start = l.initialKineticEnergy + l.initialStrainEnergy;

@@ -3,7 +3,7 @@
 /// wrong run is found within a few steps and no state is written after it.
 ///
 ///     energy      used = K + U + plastic + friction + damping + walls + splitting, K kinetic and U strain energy now;
-///                 given = K + U at the start + work of gravity, loads, body forces + volumeWork (energyBudget.hpp).
+///                 given = K + U at the start + work of gravity, loads, body forces + finiteStrainWork (energyBudget.hpp).
 ///                 used - given is energy that came from nowhere. Allowed: energyTolerance times all energy that was
 ///                 there, supplied or dissipated. What is lost in transfer and what time integration holds back for
 ///                 half a step (staggering) is left out of `used`, so that an unstable step and a transfer that makes
@@ -50,7 +50,7 @@ struct MonitorRule
 struct Extremes
 {
     double jacobian = 1;          ///< smallest det F
-    double courant = 0;           ///< largest (c_p + |v|) dt/h
+    double courant = 0;           ///< largest (c_p + 2 |v|) dt/h
     double nodalMass = 0;         ///< smallest nodal mass over that of a full node
     double yieldViolation = 0;    ///< largest f/max(|sigma|, strength)
     double energyFromNowhere = 0; ///< largest share, as compared with energyTolerance

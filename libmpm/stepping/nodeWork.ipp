@@ -124,33 +124,58 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     }
 }
 
-/// Velocities w that strains are taken from, walls applied: the projected v_i (USF), or the second projection
-/// sum m_p v_p(new) N_ip / m_i (MUSL). They go to lanes 1 + dim; lanes 1.. keep v* in the second case.
+/// Velocities w that strains are taken from: the projected v_i (USF), or the second projection sum m_p v_p(new) N_ip / m_i
+/// (MUSL), held where walls hold v*. They go to lanes 1 + dim; lanes 1.. keep v*, in USF that of the stress at hand.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {
     Clock clock(times_.nodal);
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-        sumWindows(row, block, sum);
         row.dt = dt;
-        for (Index i = row.begin; i < row.end; ++i)
-        {
-            const HalfRecord& s = sum[i - row.begin];
-            if (!secondProjection)
-                row.node[i] = transfer::finishNode<dim>(s);
-            const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
-            for (int a = 0; a < dim; ++a)
-                row.node[i][1 + dim + a] = inverse * s[1 + a];
-        }
-        nodal::NodeSums unbooked;
-        auto* const booked = row.sums;
-        row.sums = &unbooked;
         if (secondProjection)
-            for (const auto& wall : walls_)
-                wall.keepContact(row);
-        applyWalls(row);
-        row.sums = booked;
+        {
+            HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
+            sumWindows(row, block, sum);
+            for (Index i = row.begin; i < row.end; ++i)
+                setStrainVelocity(row, i, sum[i - row.begin]);
+        }
+        else if (walls_.empty())
+        {
+            sumNodes<transfer::Momentum>(row, block);
+            for (Index i = row.begin; i < row.end; ++i)
+                setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
+        }
+        else
+            foreseeContact(row, block);
+        for (const auto& wall : walls_)
+            wall.follow(row);
     });
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const
+{
+    const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
+    for (int a = 0; a < dim; ++a)
+        row.node[i][1 + dim + a] = inverse * momentum[1 + a];
+}
+
+/// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand. Leaves its v*
+/// and v_i in the lanes as a second projection would.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block)
+{
+    sumNodes<transfer::Forces>(row, block);
+    nodal::NodeSums unbooked;
+    auto* const booked = row.sums;
+    row.sums = &unbooked;
+    nodal::beginRow(row);
+    for (const auto& effect : effects_)
+        effect->apply(row);
+    applyWalls(row);
+    row.sums = booked;
+    for (Index i = row.begin; i < row.end; ++i)
+        for (int a = 0; a < dim; ++a)
+            std::swap(row.node[i][row.velocity + a], row.node[i][row.trial + a]);
 }
 } // namespace mpm::stepping

@@ -41,7 +41,7 @@ StabilityLimit movedLimit(StabilityLimit limit, double restWaveSpeed, const stat
 {
     limit.waveSpeed = restWaveSpeed * std::sqrt(state.largestJacobian);
     limit.speed = speed;
-    limit.deltaT = limit.courant * state.grid.h / (limit.waveSpeed + limit.speed);
+    limit.deltaT = limit.courant * state.grid.h / (limit.waveSpeed + 2 * limit.speed);
     return limit;
 }
 

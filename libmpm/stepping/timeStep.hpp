@@ -1,7 +1,7 @@
 #pragma once
 /// How large a time step may be.
 ///
-/// Stability (METHOD, Stability limit): (c_p + |v|) dt/h must stay under a bound of the scheme; c_p = sqrt(M/rho) is
+/// Stability (METHOD, Stability limit): (c_p + 2 |v|) dt/h must stay under a bound of the scheme; c_p = sqrt(M/rho) is
 /// the largest P-wave speed, |v| the largest particle speed, h the cell size. With |v| particles cannot pass the reach
 /// of a wave in one step, which impacts beyond the wave speed need. Bounds of c_p dt/h, for 2D and 3D:
 ///                    linear                        GIMP, splines
@@ -20,7 +20,7 @@
 
 namespace mpm::stepping
 {
-/// Bound of (c_p + |v|) dt/h [-]. ignoresMass: the shape keeps its bound as nodes empty (all but hat functions).
+/// Bound of (c_p + 2 |v|) dt/h [-]. ignoresMass: the shape keeps its bound as nodes empty (all but hat functions).
 double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double smallestNodalMassFraction);
 
 /// Fastest P wave of the materials in use [m/s].
@@ -28,7 +28,7 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 struct StabilityLimit
 {
-    double courant = 0;   ///< bound of (c_p + |v|) dt/h [-]
+    double courant = 0;   ///< bound of (c_p + 2 |v|) dt/h [-]
     double waveSpeed = 0; ///< c_p [m/s]
     double speed = 0;     ///< |v| [m/s]
     double deltaT = 0;    ///< bound of dt [s]

@@ -17,7 +17,7 @@ import numpy as np
 
 PROJECT = Path(__file__).resolve().parents[2]
 UTILITY = Path(os.environ.get("MPM_BUILD_DIR", PROJECT / "build")) / "bin" / "smoothStress"
-LEDGER_NUMBERS = ("plasticDissipation frictionDissipation wallLoss splitMergeLoss transferLoss dampingDissipation pendingWork staggering initialStaggering volumeWork gravityWork "
+LEDGER_NUMBERS = ("plasticDissipation frictionDissipation wallLoss splitMergeLoss transferLoss dampingDissipation pendingWork staggering initialStaggering finiteStrainWork gravityWork "
                   "tractionWork apexVolume bodyForceWork kineticEnergy initialKineticEnergy initialStrainEnergy "
                   "splitAngularMomentum").split()
 LEDGER_VECTORS = "wallImpulse gravityImpulse tractionImpulse dampingImpulse initialMomentum".split()
