@@ -2,7 +2,7 @@
 Hard: large shear with dilation opens volume without end: the layer doubles its thickness, its density falls and its waves
 get faster, so that a step which was safe is not any more.
 Pass: the layer grows by tan(psi) times its shear, within 5 %; the slab rises by tan(psi) times its slide, within 5 %, and no
-higher than its energy allows; c_p dt/h stays below 1.05 maxCo with the wave speed of the loosest sand."""
+higher than its energy allows; c_p dt/h stays below 1.1 maxCo with the wave speed of the loosest sand."""
 import numpy as np
 from hardCase import HardCase, set_fields
 
@@ -39,5 +39,5 @@ for shape, update in (("uGIMP", "MUSL"), ("quadraticBSpline", "USL"), ("cpGIMP",
     case.check(f"error of growth over tan(psi) shear {tag}", abs(growth / shear / tangent - 1), "<=", 0.05)
     case.check(f"error of rise over tan(psi) slide {tag}", abs(moved[1] / moved[0] / tangent - 1), "<=", 0.05)
     case.check(f"rise over the height its energy allows {tag}", moved[1] / (v0**2 * (1 + tangent**2) / 20), "<=", 1)
-    case.check(f"largest c_p dt/h, loosest sand, over maxCo {tag}", worst / max_co, "<=", 1.05)
+    case.check(f"largest c_p dt/h, loosest sand, over maxCo {tag}", worst / max_co, "<=", 1.1)
 case.finish()

@@ -8,7 +8,7 @@ from hardCase import HardCase, pressure
 
 case = HardCase(__file__, __doc__)
 g, height = 9.81, 2
-for shape, update, adjust in (("uGIMP", "MUSL", "no"), ("cpGIMP", "MUSL", "no"), ("quadraticBSpline", "USL", "no"),
+for shape, update, adjust in (("uGIMP", "MUSL", "no"), ("cpGIMP", "MUSL", "no"), ("quadraticBSpline", "USL", "yes"),
                               ("linear", "MUSL", "yes"), ("uGIMP", "USF", "yes")):
     run = case.solve(shape + update, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update),
                      ("system/controlDict", "adjustTimeStep", adjust))

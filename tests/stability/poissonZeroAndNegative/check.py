@@ -14,7 +14,7 @@ for nu, walls, shape, update in ((0, True, "uGIMP", "MUSL"), (0, False, "uGIMP",
     time = 2 * H * np.sqrt(rho / M)
     run = case.copy(f"{shape}{update}{nu}{'walls' if walls else 'free'}", ("system/mpmSchemes", "shape", shape),
                     ("system/mpmSchemes", "stressUpdate", update), ("constant/materialProperties", "nu", nu),
-                    ("system/controlDict", "endTime", repr(time)), ("system/controlDict", "deltaT", repr(time / 200)),
+                    ("system/controlDict", "endTime", repr(time)), ("system/controlDict", "deltaT", repr(time / 250)),
                     ("system/controlDict", "writeInterval", repr(time)))
     if not walls:
         file = run.folder / "constant/boundaryConditions"

@@ -22,9 +22,10 @@ def locked_in(x):
     return level / 6 * np.stack([xx, yy, 0.3 * (xx + yy), xy], axis=1)
 
 
-VARIANTS = [(stressed, shape, update, 813) for stressed in (True, False)
-            for shape, update in (("linear", "MUSL"), ("uGIMP", "MUSL"), ("uGIMP", "USL"), ("cpGIMP", "MUSL"),
-                                  ("quadraticBSpline", "MUSL"))] + [(False, "linear", "MUSL", 800), (False, "uGIMP", "USF", 800)]
+VARIANTS = [(stressed, shape, update, steps) for stressed in (True, False)
+            for shape, update, steps in (("linear", "MUSL", 813), ("uGIMP", "MUSL", 813), ("uGIMP", "USL", 1013),
+                                         ("cpGIMP", "MUSL", 813), ("quadraticBSpline", "MUSL", 813))]
+VARIANTS += [(False, "linear", "MUSL", 800), (False, "uGIMP", "USF", 800)]
 for stressed, shape, update, steps in VARIANTS:
     name = f"{shape}{update}{'Stressed' if stressed else 'Free'}{steps}"
     run = case.seed(name, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update),
