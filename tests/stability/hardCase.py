@@ -185,6 +185,11 @@ def set_fields(run, **fields):
             item[...] = np.asarray(value(position) if callable(value) else value).reshape(item.shape)
 
 
+def schemes(shape, update):
+    """Changes of system/mpmSchemes."""
+    return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
+
+
 def record(case, what, measured, unit=""):
     """A number for the table that no criterion bounds."""
     case.checks.append({"what": what, "measured": float(measured), "relation": "recorded", "bound": float(measured),

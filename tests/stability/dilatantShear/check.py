@@ -1,10 +1,10 @@
 """A heavy slab slides on a layer of sand that dilates at its full friction angle (associated flow).
-Hard: large shear with dilation opens volume without end: the layer doubles its thickness, its density falls and its waves
-get faster, so that a step which was safe is not any more.
-Pass: the layer grows by tan(psi) times its shear, within 5 %; the slab rises by tan(psi) times its slide, within 5 %, and no
-higher than its energy allows; c_p dt/h stays below 1.1 maxCo with the wave speed of the loosest sand."""
+Hard: large shear with dilation opens volume without end: the layer doubles its thickness, its density falls and its
+waves get faster, so that a step which was safe is not any more.
+Pass: the layer grows by tan(psi) times its shear, within 5 %; the slab rises by tan(psi) times its slide, within 5
+%, and no higher than its energy allows; c_p dt/h stays below 1.1 maxCo with the wave speed of the loosest sand."""
 import numpy as np
-from hardCase import HardCase, set_fields
+from hardCase import HardCase, schemes, set_fields
 
 case = HardCase(__file__, __doc__)
 tangent, h, c_p, max_co = np.tan(np.pi / 6), 0.25, np.sqrt(20e6 * 0.7 / 1.3 / 0.4 / 1600), 0.5
@@ -18,7 +18,7 @@ def sliding(x):
 
 
 for shape, update in (("uGIMP", "MUSL"), ("quadraticBSpline", "USL"), ("cpGIMP", "MUSL")):
-    run = case.seed(shape + update, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update))
+    run = case.seed(shape + update, *schemes(shape, update))
     set_fields(run, velocity=sliding)
     run.utility("mpmSolve")
     tag = f"({run.folder.name})"

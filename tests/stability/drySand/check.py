@@ -1,16 +1,17 @@
 """A column of dry sand (cohesion 0) collapses on a rough base.
-Hard: at the free surface stress is zero, the apex of the yield surface; grains there hardly have neighbours, light nodes
-take large accelerations, and particles shoot out of the heap. Loosened sand is lighter: elastic waves in it are faster.
-Pass: a particle without pressure has stress zero in every bit, no principal stress is tensile beyond round-off, and at no
-stored time is a particle faster than a free fall from the top, sqrt(2 g H)."""
+Hard: at the free surface stress is zero, the apex of the yield surface; grains there hardly have neighbours, light
+nodes take large accelerations, and particles shoot out of the heap. Loosened sand is lighter: elastic waves in it are
+faster.
+Pass: a particle without pressure has stress zero in every bit, no principal stress is tensile beyond round-off, and
+at no stored time is a particle faster than a free fall from the top, sqrt(2 g H)."""
 import numpy as np
-from hardCase import HardCase, pressure
+from hardCase import HardCase, pressure, schemes
 
 case = HardCase(__file__, __doc__)
 g, height = 9.81, 2
 for shape, update, adjust in (("uGIMP", "MUSL", "no"), ("cpGIMP", "MUSL", "no"), ("quadraticBSpline", "USL", "yes"),
                               ("linear", "MUSL", "yes"), ("uGIMP", "USF", "yes")):
-    run = case.solve(shape + update, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update),
+    run = case.solve(shape + update, *schemes(shape, update),
                      ("system/controlDict", "adjustTimeStep", adjust))
     tag = f"({run.folder.name})"
     case.common(run)

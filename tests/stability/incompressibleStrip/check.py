@@ -1,10 +1,11 @@
 """A nearly incompressible block (Poisson's ratio 0.499) pressed between two strips.
-Hard: cells with more particles than they have freedom to keep their volume lock, and the pressures of single particles
-alternate from one to the next (checkerboard) by several times the load. In plane strain under given tractions the true
-stresses in the plane do not depend on Poisson's ratio (Michell), which gives a reference: the same block at 0.3.
-Pass: smoothed stresses (smoothStress) of quadratic splines: pressure within 5 % of the load (RMS over the block, and everywhere
-below the top quarter), checkerboard under 1 %. What particles show before smoothing, and GIMP, is recorded: see a pressure
-at 0.499 only after smoothing, and use splines."""
+Hard: cells with more particles than they have freedom to keep their volume lock, and the pressures of single
+particles alternate from one to the next (checkerboard) by several times the load. In plane strain under given
+tractions the true stresses in the plane do not depend on Poisson's ratio (Michell), which gives a reference: the same
+block at 0.3.
+Pass: smoothed stresses (smoothStress) of quadratic splines: pressure within 5 % of the load (RMS over the block,
+and everywhere below the top quarter), checkerboard under 1 %. What particles show before smoothing, and GIMP, is
+recorded: see a pressure at 0.499 only after smoothing, and use splines."""
 import h5py
 import numpy as np
 from hardCase import HardCase, checkerboard, record

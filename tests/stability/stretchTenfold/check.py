@@ -1,8 +1,9 @@
 """A bar stretched to ten times its length.
-Hard: once particles are further apart than a cell they no longer share nodes, and the body tears although the material does
-not (numerical fracture).
-Pass: with splitting no gap along the bar is wider than a cell and mass is exact; without splitting the gap is there, and
-the summary of the run says so. (The stretch single particles know of is recorded: it scatters about ten.)"""
+Hard: once particles are further apart than a cell they no longer share nodes, and the body tears although the
+material does not (numerical fracture).
+Pass: with splitting no gap along the bar is wider than a cell and mass is exact; without splitting the gap is
+there, and the summary of the run says so. (The stretch single particles know of is recorded: it scatters about
+ten.)"""
 import re
 import numpy as np
 from hardCase import HardCase, record, set_fields

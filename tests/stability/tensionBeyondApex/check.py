@@ -1,17 +1,17 @@
 """Soil without dilation pulled apart in all directions.
-Hard: at dilation angle 0 the flow rule has no answer once the mean tension passes c cot(phi); a return map must choose,
-keep to what it chose, and say how often it did.
-Pass: the run ends in the steps it should take; the counter of apex returns is above 0, the mean tension stays at c cot(phi)
-to 1e-9, and the volume dropped at the apex is the growth of the body's volume less the elastic part, within 0.1 %;
-the energy residual is under 2 % of the plastic work."""
+Hard: at dilation angle 0 the flow rule has no answer once the mean tension passes c cot(phi); a return map must
+choose, keep to what it chose, and say how often it did.
+Pass: the run ends in the steps it should take; the counter of apex returns is above 0, the mean tension stays at c
+cot(phi) to 1e-9, and the volume dropped at the apex is the growth of the body's volume less the elastic part,
+within 0.1 %; the energy residual is under 2 % of the plastic work."""
 import math
 import numpy as np
-from hardCase import HardCase, pressure, set_fields
+from hardCase import HardCase, pressure, schemes, set_fields
 
 case = HardCase(__file__, __doc__)
 K, apex = 20e6 / 3 / (1 - 2 * 0.42), 1e3 / math.tan(math.radians(42))
 for shape, update in (("linear", "USL"), ("uGIMP", "MUSL"), ("cpGIMP", "USF"), ("quadraticBSpline", "MUSL")):
-    run = case.seed(shape + update, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update))
+    run = case.seed(shape + update, *schemes(shape, update))
     set_fields(run, velocity=lambda x: x)
     run.utility("mpmSolve")
     tag = f"({run.folder.name})"

@@ -1,10 +1,11 @@
 """A strip load on undrained clay (friction angle 0).
-Hard: the surface of the law has no apex and k - 1 = 0 wherever a formula divides by it; plastic flow keeps the volume, which
-fully integrated cells resist (locking): they carry loads the soil cannot.
-Pass: the load is raised in steps; the footing of width B stands at 5.0 c (sinks less than 0.1 % of B in the last 0.2 s) and
-goes on sinking at 5.6 c (more than 0.3 % of B in the last 0.2 s), so that N_c lies in [5.0, 5.6] (exact: pi + 2); no return to an apex."""
+Hard: the surface of the law has no apex and k - 1 = 0 wherever a formula divides by it; plastic flow keeps the
+volume, which fully integrated cells resist (locking): they carry loads the soil cannot.
+Pass: the load is raised in steps; the footing of width B stands at 5.0 c (sinks less than 0.1 % of B in the last
+0.2 s) and goes on sinking at 5.6 c (more than 0.3 % of B in the last 0.2 s), so that N_c lies in [5.0, 5.6] (exact:
+pi + 2); no return to an apex."""
 import numpy as np
-from hardCase import HardCase, record
+from hardCase import HardCase, record, schemes
 
 case = HardCase(__file__, __doc__)
 c, B = 10e3, 2.0
@@ -18,7 +19,7 @@ def settlement(run, time):
 
 
 for shape, update in (("uGIMP", "MUSL"), ("linear", "MUSL"), ("quadraticBSpline", "USL")):
-    run = case.seed(shape + update, ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update))
+    run = case.seed(shape + update, *schemes(shape, update))
     tag, sunk = f"({run.folder.name})", {}
     for load, until in ((4.6, 0.2), (5.0, 0.4), (5.0, 0.6), (5.6, 0.8), (5.6, 1.0)):
         run.set("constant/boundaryConditions", "value", repr(load * c))
