@@ -10,8 +10,11 @@ from hardCase import HardCase, pressure, schemes, set_fields
 
 case = HardCase(__file__, __doc__)
 K, apex = 20e6 / 3 / (1 - 2 * 0.42), 1e3 / math.tan(math.radians(42))
-for shape, update in (("linear", "USL"), ("uGIMP", "MUSL"), ("cpGIMP", "USF"), ("quadraticBSpline", "MUSL")):
-    run = case.seed(shape + update, *schemes(shape, update))
+SOLID = [("system/gridDict", "dimension", 3), ("system/gridDict", "min", "(-5 -5 -5)"), ("system/gridDict", "max", "(5 5 5)"),
+         ("system/seedParticlesDict", "geometry", '"geometry/solid.geo"')]
+for dimension, shape, update in ((2, "linear", "USL"), (2, "uGIMP", "MUSL"), (2, "cpGIMP", "USF"),
+                                 (2, "quadraticBSpline", "MUSL"), (3, "uGIMP", "MUSL")):
+    run = case.seed(f"{shape}{update}{dimension}D", *schemes(shape, update), *(SOLID if dimension == 3 else []))
     set_fields(run, velocity=lambda x: x)
     run.utility("mpmSolve")
     tag = f"({run.folder.name})"
