@@ -25,7 +25,7 @@ def locked_in(x):
 VARIANTS = [(stressed, shape, update, steps) for stressed in (True, False)
             for shape, update, steps in (("linear", "MUSL", 813), ("uGIMP", "MUSL", 813), ("uGIMP", "USL", 1013),
                                          ("cpGIMP", "MUSL", 813), ("quadraticBSpline", "MUSL", 813))]
-VARIANTS += [(False, "linear", "MUSL", 800), (False, "uGIMP", "USF", 800)]
+VARIANTS += [(True, "linear", "MUSL", 800), (False, "linear", "MUSL", 800), (False, "uGIMP", "USF", 800)]
 for stressed, shape, update, steps in VARIANTS:
     name = f"{shape}{update}{'Stressed' if stressed else 'Free'}{steps}"
     run = case.seed(name, *schemes(shape, update),
