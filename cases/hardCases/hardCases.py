@@ -64,11 +64,17 @@ def number(value):
 
 
 def slack(check):
-    """How far a measured number is from its bound; 0 is on it, less than 0 beyond."""
+    """How far a measured number is from its bound; 0 is on it, less than 0 beyond. A number that is only recorded has none."""
+    if check["relation"] == "recorded":
+        return float("inf")
     measured, bound = check["measured"], check["bound"]
     if not check["passed"] or isinstance(measured, str) or measured != measured:
         return -1.0
     return abs(bound - measured) / max(abs(bound), abs(measured), 1e-300)
+
+
+def bound_text(check):
+    return "(recorded)" if check["relation"] == "recorded" else f"({check['relation']} {number(check['bound'])})"
 
 
 def decisive(checks, most=4):
@@ -81,12 +87,11 @@ def decisive(checks, most=4):
             groups[what] = check
     failed = [what for what, check in groups.items() if not check["passed"]]
     own = [what for what in groups if what not in COMMON and what not in failed]
-    own.sort(key=lambda what: what.startswith("exit code"))
+    own.sort(key=lambda what: (what.startswith("exit code"), groups[what]["relation"] == "recorded"))
     chosen = failed + own[:max(most - len(failed), 0)]
     chosen += [what for what in ("energy residual",) if what in groups and what not in chosen]
-    text = [f"{what} {number(groups[what]['measured'])} {groups[what]['unit']} "
-            f"({groups[what]['relation']} {number(groups[what]['bound'])})" + (" FAILED" if what in failed else "")
-            for what in chosen]
+    text = [f"{what} {number(groups[what]['measured'])} {groups[what]['unit']} " + bound_text(groups[what]) +
+            (" FAILED" if what in failed else "") for what in chosen]
     return "; ".join(" ".join(part.split()) for part in text)
 
 

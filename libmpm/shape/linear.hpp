@@ -15,6 +15,9 @@ struct Linear
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;
     using Narrow = Linear;
+    /// Least weight of a node. A particle on a node plane in every bit would give the next node no mass, so no velocity,
+    /// but have a gradient towards it: (0 - v)/h would be strain.
+    static constexpr double least = 0x1p-52;
 
     static void evaluate(const double* x, const double*, double origin, double invH, AxisWeights<2>& w)
     {
@@ -22,7 +25,7 @@ struct Linear
         {
             const double s = (x[l] - origin) * invH;
             const double first = std::floor(s);
-            const double t = s - first;
+            const double place = s - first, t = place > least ? place : least;
             w.base[l] = std::int32_t(first);
             w.N[0][l] = 1 - t;
             w.N[1][l] = t;

@@ -140,9 +140,10 @@ class HardCase:
         print(f"{'ok  ' if passed else 'FAIL'}  {what}: {text} {unit} ({relation} {bound})")
         return passed
 
-    def common(self, run, energy=0.02):
+    def common(self, run, energy=0.02, impulse=0.0):
         """What holds in every case: finite numbers, exact mass, momentum balance, yield condition, energy budget.
-        energy: largest |residual| over the energy that was there or supplied."""
+        energy: largest |residual| over the energy that was there or supplied; impulse [N s]: of forces that cancel in the
+        ledger (walls that face each other), so that round-off is measured against them too."""
         first, last, history = run.state(0), run.state(-1), run.series()
         tag = f" ({run.folder.name})"
         numbers = [last[n] for n in last.particles] + [history[n] for n in history.dtype.names]
@@ -154,7 +155,7 @@ class HardCase:
         sources = [ledger[n][:dim] for n in ("initialMomentum", "wallImpulse", "gravityImpulse", "tractionImpulse",
                                           "dampingImpulse") if n in ledger]
         momentum = (last["mass"][:, None] * last["velocity"]).sum(axis=0)
-        scale = (last["mass"][:, None] * np.abs(last["velocity"])).sum() + sum(np.abs(s).sum() for s in sources)
+        scale = (last["mass"][:, None] * np.abs(last["velocity"])).sum() + sum(np.abs(s).sum() for s in sources) + impulse
         if scale > 0:
             self.check("momentum that came from nowhere" + tag, np.abs(momentum - sum(sources)).max() / scale, "<=", 1e-12)
         self.check("yield violation" + tag, history["maxYieldViolation"].max(), "<=", 1e-9)
@@ -170,3 +171,49 @@ class HardCase:
                                                              indent=1))
         print(f"{self.name}: {'passed' if passed else 'FAILED'}")
         sys.exit(0 if passed else 1)
+
+
+# What several cases share --------------------------------------------------------------------------------------------
+
+def set_fields(run, **fields):
+    """Overwrites fields of the particles in 0/state.h5 (between seeding and solving): arrays, or functions of the
+    positions (N, dim), as velocity=lambda x: 0 * x."""
+    with h5py.File(run.folder / "0" / "state.h5", "r+") as file:
+        position = file["particles/position"][()]
+        for name, value in fields.items():
+            item = file["particles"][name]
+            item[...] = np.asarray(value(position) if callable(value) else value).reshape(item.shape)
+
+
+def schemes(shape, update):
+    """Changes of system/mpmSchemes."""
+    return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
+
+
+def record(case, what, measured, unit=""):
+    """A number for the table that no criterion bounds."""
+    case.checks.append({"what": what, "measured": float(measured), "relation": "recorded", "bound": float(measured),
+                        "unit": unit, "passed": True})
+    print(f"      {what}: {measured:.4g} {unit} (recorded)")
+
+
+def pressure(stress):
+    """-(s_xx + s_yy + s_zz)/3, compression positive."""
+    return -stress[:, :3].sum(axis=1) / 3
+
+
+def log_number(run, pattern):
+    """The number a regular expression's group finds in what the last utility printed; NaN if it is not there."""
+    found = re.search(pattern, run.log)
+    return float(found.group(1)) if found else math.nan
+
+
+def checkerboard(position, value, spacing):
+    """RMS amplitude of what alternates from one particle to the next: half of each value less the mean of its four
+    neighbours on the lattice of seeding (2D; particles at its edges are left out)."""
+    index = np.floor(position / spacing).astype(int)
+    index -= index.min(axis=0)
+    table = np.full(index.max(axis=0) + 1, np.nan)
+    table[index[:, 0], index[:, 1]] = value
+    mean = (table[:-2, 1:-1] + table[2:, 1:-1] + table[1:-1, :-2] + table[1:-1, 2:]) / 4
+    return math.sqrt(np.nanmean((0.5 * (table[1:-1, 1:-1] - mean)) ** 2))

@@ -113,6 +113,17 @@ TEST_CASE("weights sum to one, gradients to zero, linear fields are kept")
     checkSums<shape::QuadraticBSpline>(randomLanes(0.1, 0.5));
 }
 
+TEST_CASE("a node that a particle has a gradient towards gets some of its mass")
+{
+    Lanes at = randomLanes(0.5, 0.5);
+    for (int l = 0; l < 8; ++l)
+        at.x[l] = origin + h * l; // on nodes in every bit
+    const auto w = weights<shape::Linear>(at);
+    for (int l = 0; l < lanes; ++l)
+        for (int n = 0; n < 2; ++n)
+            CHECK(w.N[n][l] > 0);
+}
+
 TEST_CASE("quadratic splines are the mean of the hat over one cell")
 {
     auto at = randomLanes(0.5, 0.5);

@@ -1,0 +1,3 @@
+SetFactory("OpenCASCADE");
+Disk(1) = {5, 5, 0, 1};
+Physical Surface("soil") = {1};
