@@ -42,7 +42,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
         throw InputError(
             control.where("deltaT"),
             fmt::format(
-                "deltaT: found {:g} s, (c_p + 2 |v|) deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.2f}) for {} "
+                "deltaT: found {:g} s, (c_p + 2 |v|) deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.3g}) for {} "
                 "with {} at c_p = {:.1f} m/s, |v| = {:.3g} m/s and h = {:g} m, or adjustTimeStep yes",
                 runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT, limit_.deltaT, limit_.courant,
                 stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape, limit_.waveSpeed, limit_.speed,

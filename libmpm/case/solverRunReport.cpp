@@ -28,6 +28,28 @@ std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
     return place;
 }
 
+/// How many particles have an edge longer than a cell, and the longest in cells: numerical fracture.
+std::pair<Index, double> longParticles(const state::State& state)
+{
+    const auto& p = state.particles;
+    Index count = 0;
+    double longest = 0;
+    for (Index i = 0; i < p.size(); ++i)
+    {
+        double most = 0;
+        for (int k = 0; k < p.dim; ++k)
+        {
+            double square = 0;
+            for (int a = 0; a < p.dim; ++a)
+                square += std::pow(p.F[a * p.dim + k][std::size_t(i)], 2);
+            most = std::max(most, p.length0[k][std::size_t(i)] * std::sqrt(square) / state.grid.h);
+        }
+        count += most > 1;
+        longest = std::max(longest, most);
+    }
+    return {count, longest};
+}
+
 void line(const std::string& what, const std::string& text)
 {
     fmt::print("  {:<14} {}\n", what, text);
@@ -87,6 +109,10 @@ void SolverRun::warnings() const
     if (stepper_->report().cappedDomains > 0)
         line("note", fmt::format("{} particle domains are held at {} cells; split them earlier or seed finer",
                                  stepper_->report().cappedDomains, scene_.shape == "cpGIMP" ? "two" : "one"));
+    if (const auto [count, longest] = longParticles(state_); count > 0)
+        line("note", fmt::format("{} particles are longer than a cell (the longest {:.1f} cells): the body may tear between "
+                                 "them; split them (mpmSchemes splitting) or seed finer",
+                                 count, longest));
     if (ledger.splitsPutOff > 0)
         line("note", fmt::format("{} particles wait at a wall for their split", ledger.splitsPutOff));
     if (ledger.splitsCapped > 0)

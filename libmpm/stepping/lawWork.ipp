@@ -1,7 +1,6 @@
 // What ExplicitStepper does to one chunk between its velocity gradient and its stress: deformation, the law, and the sums
 // of the energy budget (energyBudget.hpp).
 #pragma once
-#include "constitutive/kinematics.hpp"
 #include "stepping/explicitStepper.hpp"
 
 #include <algorithm>
