@@ -71,19 +71,19 @@ class NaiveNodes
                 if (node.mass > 0)
                     node.velocity[a] += dt * node.force[a] / node.mass + (scene.gravity ? dt * (*scene.gravity)[a] : 0);
             }
-        applyWalls(scene.walls, &Node<dim>::velocity);
+        applyWalls(scene.walls, &Node<dim>::velocity, false);
         for (auto& node : nodes_)
             for (int a = 0; a < dim; ++a)
                 node.acceleration[a] = (node.velocity[a] - node.acceleration[a]) / dt;
     }
 
-    /// The projected velocity, walls applied.
-    void strainVelocities(const std::vector<nodal::Wall>& walls)
+    /// The projected velocity, walls applied; after solve() walls that pushed stay in contact.
+    void strainVelocities(const std::vector<nodal::Wall>& walls, bool solved)
     {
         for (auto& node : nodes_)
             for (int a = 0; a < dim; ++a)
                 node.strainVelocity[a] = node.mass > 0 ? node.momentum[a] / node.mass : 0;
-        applyWalls(walls, &Node<dim>::strainVelocity);
+        applyWalls(walls, &Node<dim>::strainVelocity, solved);
     }
 
     void strainVelocitiesAreNew()
@@ -107,14 +107,15 @@ class NaiveNodes
                 }
     }
 
-    void applyWalls(const std::vector<nodal::Wall>& walls, double (Node<dim>::*lane)[dim])
+    void applyWalls(const std::vector<nodal::Wall>& walls, double (Node<dim>::*lane)[dim], bool keepContact)
     {
         for (auto& node : nodes_)
             std::fill_n(node.pushed, dim, 0.0);
         for (const auto& wall : walls)
             forEachBehind(wall, [&](Node<dim>& node) {
                 auto& u = node.*lane;
-                if (wall.separation && !(wall.side * u[wall.axis] > 0))
+                const bool pushes = wall.side * u[wall.axis] > 0;
+                if (wall.separation && !pushes && !(keepContact && node.velocity[wall.axis] == 0))
                     return;
                 for (int a = 0; a < dim; ++a)
                     if (a == wall.axis || wall.type == nodal::WallType::fixed)

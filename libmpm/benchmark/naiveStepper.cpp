@@ -59,7 +59,7 @@ class Naive : public NaiveStepper
         {
         case StressUpdate::USF:
             project(true, false);
-            nodes_.strainVelocities(scene_.walls);
+            nodes_.strainVelocities(scene_.walls, false);
             toParticles(dt, {.strain = true});
             project(true, true);
             nodes_.solve(dt, scene_);
@@ -76,7 +76,7 @@ class Naive : public NaiveStepper
             nodes_.solve(dt, scene_);
             toParticles(dt, {.velocity = true});
             project(false, false);
-            nodes_.strainVelocities(scene_.walls);
+            nodes_.strainVelocities(scene_.walls, true);
             toParticles(dt, {.strain = true, .position = true});
             break;
         }
@@ -290,8 +290,10 @@ bool naiveKnows(const std::string& shape)
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene)
 {
-    if (scene.splitting || scene.bodyForce || !scene.loads.empty() || scene.materials.size() != 1)
-        throw InputError("the naive step knows one material, no splitting, tractions or prescribed body forces");
+    if (scene.splitting || scene.relaxationTime || scene.bodyForce || !scene.loads.empty() ||
+        scene.materials.size() != 1)
+        throw InputError(
+            "the naive step knows one material, no splitting, damping, tractions or prescribed body forces");
     return state.particles.dim == 2 ? make<2>(shape, state, scene) : make<3>(shape, state, scene);
 }
 } // namespace mpm::benchmark
