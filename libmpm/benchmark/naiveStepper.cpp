@@ -58,8 +58,9 @@ class Naive : public NaiveStepper
         switch (scene_.stressUpdate)
         {
         case StressUpdate::USF:
-            project(true, false);
-            nodes_.strainVelocities(scene_.walls, false);
+            project(true, true); // which walls hold is foreseen with the stress at hand
+            nodes_.solve(dt, scene_);
+            nodes_.strainVelocities(scene_.walls);
             toParticles(dt, {.strain = true});
             project(true, true);
             nodes_.solve(dt, scene_);
@@ -76,7 +77,7 @@ class Naive : public NaiveStepper
             nodes_.solve(dt, scene_);
             toParticles(dt, {.velocity = true});
             project(false, false);
-            nodes_.strainVelocities(scene_.walls, true);
+            nodes_.strainVelocities(scene_.walls);
             toParticles(dt, {.strain = true, .position = true});
             break;
         }
