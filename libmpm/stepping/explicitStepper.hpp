@@ -5,6 +5,7 @@
 /// One pass over the particles of a tile does all that can be done while they are in cache: the pass that ends a step
 /// also projects the particles as it leaves them, which is the first projection of the next step. Sums are the same,
 /// bit for bit, as those of a projection on its own.
+#include "constitutive/kinematics.hpp"
 #include "nodal/damping.hpp"
 #include "nodal/gravity.hpp"
 #include "nodal/traction.hpp"
