@@ -71,19 +71,24 @@ class NaiveNodes
                 if (node.mass > 0)
                     node.velocity[a] += dt * node.force[a] / node.mass + (scene.gravity ? dt * (*scene.gravity)[a] : 0);
             }
-        applyWalls(scene.walls, &Node<dim>::velocity);
+        applyWalls(scene.walls);
         for (auto& node : nodes_)
             for (int a = 0; a < dim; ++a)
                 node.acceleration[a] = (node.velocity[a] - node.acceleration[a]) / dt;
     }
 
-    /// The projected velocity, walls applied.
+    /// The projected velocity, held where walls hold that of solve().
     void strainVelocities(const std::vector<nodal::Wall>& walls)
     {
         for (auto& node : nodes_)
             for (int a = 0; a < dim; ++a)
                 node.strainVelocity[a] = node.mass > 0 ? node.momentum[a] / node.mass : 0;
-        applyWalls(walls, &Node<dim>::strainVelocity);
+        for (const auto& wall : walls)
+            forEachBehind(wall, [&](Node<dim>& node) {
+                for (int a = 0; a < dim; ++a)
+                    if (node.velocity[a] == 0 || (a == wall.axis && wall.side * node.strainVelocity[a] > 0))
+                        node.strainVelocity[a] = 0;
+            });
     }
 
     void strainVelocitiesAreNew()
@@ -107,13 +112,13 @@ class NaiveNodes
                 }
     }
 
-    void applyWalls(const std::vector<nodal::Wall>& walls, double (Node<dim>::*lane)[dim])
+    void applyWalls(const std::vector<nodal::Wall>& walls)
     {
         for (auto& node : nodes_)
             std::fill_n(node.pushed, dim, 0.0);
         for (const auto& wall : walls)
             forEachBehind(wall, [&](Node<dim>& node) {
-                auto& u = node.*lane;
+                auto& u = node.velocity;
                 if (wall.separation && !(wall.side * u[wall.axis] > 0))
                     return;
                 for (int a = 0; a < dim; ++a)
@@ -126,7 +131,7 @@ class NaiveNodes
         for (const auto& wall : walls)
             if (wall.type == nodal::WallType::friction)
                 forEachBehind(wall,
-                              [&](Node<dim>& node) { rub(wall, node.pushed[wall.axis] * wall.side, node.*lane); });
+                              [&](Node<dim>& node) { rub(wall, node.pushed[wall.axis] * wall.side, node.velocity); });
     }
 
     static void rub(const nodal::Wall& wall, double into, double (&u)[dim])

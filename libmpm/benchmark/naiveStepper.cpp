@@ -58,7 +58,8 @@ class Naive : public NaiveStepper
         switch (scene_.stressUpdate)
         {
         case StressUpdate::USF:
-            project(true, false);
+            project(true, true); // which walls hold is foreseen with the stress at hand
+            nodes_.solve(dt, scene_);
             nodes_.strainVelocities(scene_.walls);
             toParticles(dt, {.strain = true});
             project(true, true);
@@ -290,8 +291,10 @@ bool naiveKnows(const std::string& shape)
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene)
 {
-    if (scene.splitting || scene.bodyForce || !scene.loads.empty() || scene.materials.size() != 1)
-        throw InputError("the naive step knows one material, no splitting, tractions or prescribed body forces");
+    if (scene.splitting || scene.relaxationTime || scene.bodyForce || !scene.loads.empty() ||
+        scene.materials.size() != 1)
+        throw InputError(
+            "the naive step knows one material, no splitting, damping, tractions or prescribed body forces");
     return state.particles.dim == 2 ? make<2>(shape, state, scene) : make<3>(shape, state, scene);
 }
 } // namespace mpm::benchmark

@@ -9,7 +9,7 @@
 /// for linear. Law and kinematics are the library's, for 64 particles at a time: they have references of their own, and
 /// one lane at a time would cost 64.
 ///
-/// Left out, and refused: splitting, tractions, prescribed body forces, several materials.
+/// Left out, and refused: splitting, damping, tractions, prescribed body forces, several materials.
 ///
 /// Verified in tests/verification/naiveStep.cpp: 50 steps of a column agree with makeStepper's to 1e-9.
 #include "stepping/stepper.hpp"

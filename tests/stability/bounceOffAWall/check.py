@@ -1,20 +1,20 @@
 """An elastic bar that bounces off a wall.
 Hard: nodes on the wall begin with next to no mass; contact is decided step by step, and once for the motion and once for the strains.
-Pass: a wall at rest gives no energy: the sum of kinetic and strain energy never exceeds the first by 1 %, the wall takes some, the bar does not return faster than it came, and the budget closes to 2 % with MUSL up to c dt/h = 0.13, to 6 % at twice that and with USL, which loses in nodes of little mass."""
+Pass: a wall at rest gives no energy: the sum of kinetic and strain energy never exceeds the first by 2 %, the wall takes some, the bar does not return faster than it came, and the budget closes to 1e-4."""
 from hardCase import HardCase
 
 case = HardCase(__file__, __doc__)
 for update, steps in (("MUSL", ("2e-4", "1e-3", "2e-3")), ("USL", ("2e-4", "1e-3"))):
-    for shape in ("uGIMP", "cpGIMP", "quadraticBSpline", "linear"):
+    for shape in ("uGIMP", "quadraticBSpline", "linear"):
         for dt in steps:
             if update == "USL" and shape == "linear":
                 continue  # its limit falls with the mass of the nodes on the wall: refused, or adjustTimeStep
             run = case.solve(f"{update}-{shape}-{dt}", ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update),
                              ("system/controlDict", "deltaT", dt))
-            case.common(run, energy=0.02 if update == "MUSL" and dt != "2e-3" else 0.06)
+            case.common(run, energy=1e-4)
             history, tag = run.series(), f" ({run.folder.name})"
             energy = (history["kineticEnergy"] + history["strainEnergy"]) / history["kineticEnergy"][0]
-            case.check("largest energy over the first, - 1" + tag, energy.max() - 1, "<=", 0.01)
+            case.check("largest energy over the first, - 1" + tag, energy.max() - 1, "<=", 0.02)
             case.check("energy taken by the wall over the first" + tag, float(run.state().ledger["wallLoss"]) / history["kineticEnergy"][0], ">=", 0)
             back = -history["momentumX"][-1] / history["momentumX"][0]
             case.check("speed afterwards over that before" + tag, back, "<=", 1)

@@ -3,14 +3,13 @@ Hard: damping must neither wake what rests nor strain what moves, and its decay 
 Pass: what rests stays bitwise; momentum and each velocity decay as exp(-t/tau) to round-off; no stress; energy lost is the damping's."""
 import math
 
-import h5py
 import numpy as np
 from hardCase import HardCase
 
 case = HardCase(__file__, __doc__)
 tau, v0 = 0.2, np.array([1.5, 0.5])
 for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
-    for dt in ("1e-3", "2e-3"):
+    for dt in ("1e-3", "2e-3") if shape == "uGIMP" else ("1e-3",):
         run = case.solve(f"{shape}-{dt}", ("system/mpmSchemes", "shape", shape), ("system/controlDict", "deltaT", dt))
         case.common(run)
         first, last = run.state(0), run.state()
@@ -31,20 +30,4 @@ for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
         case.check("largest |p/(p_0 exp(-t/tau)) - 1|" + tag, np.abs(momentum).max(), "<=", 1e-12)
         lost = budget["dampingDissipation"] + budget["kineticChange"]
         case.check("energy lost beside damping" + tag, np.abs(lost).max() / history["kineticEnergy"][0], "<=", 1e-12)
-
-# States written before there was damping lack its entries of the ledger: 0. Others may not be lacking.
-whole = case.solve("whole")
-for missing, exits in ((("dampingDissipation", "dampingImpulse"), 0), (("gravityImpulse",), 1)):
-    older = case.seed("without-" + missing[0])
-    with h5py.File(older.folder / "0" / "state.h5", "a") as file:
-        for name in missing:
-            del file["ledger"][name]
-    older.utility("mpmSolve")
-    case.check(f"exit code without {missing[0]}", older.exit, "==", exits)
-    if exits == 0:
-        differ = sum(int((whole.state()[n] != older.state()[n]).sum()) for n in whole.state().particles)
-        differ += sum(int(np.any(whole.state().ledger[n] != older.state().ledger[n])) for n in whole.state().ledger)
-        case.check("numbers that differ from those of a new state", differ, "==", 0)
-    else:
-        case.check("message names the entry", str(missing[0] in older.log), "==", "True")
 case.finish()

@@ -1,11 +1,11 @@
-"""Two hundred states with folder names of two digits (--long: three thousand).
+"""A hundred and twenty states with folder names of one digit (--long: three thousand).
 Hard: timePrecision says fewer digits than the times need; a name used twice would overwrite a state.
 Pass: as many folders as states, in order, every name within a thousandth of the interval; the run goes on from the true last one."""
 import numpy as np
 from hardCase import LONG, HardCase
 
 case = HardCase(__file__, __doc__)
-count = 3000 if LONG else 200
+count = 3000 if LONG else 120
 run = case.solve("many", ("system/controlDict", "endTime", f"{count * 1e-4:g}"))
 case.common(run)
 names = run.times()

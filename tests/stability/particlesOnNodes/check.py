@@ -22,7 +22,7 @@ A = np.array([[0.3, -0.7], [0.5, -0.2]])
 dA = dt * A
 exponential = np.eye(2) + dA + dA @ dA / 2 + dA @ dA @ dA / 6 + dA @ dA @ dA @ dA / 24
 for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
-    for shift in SHIFTS:
+    for shift in SHIFTS[:4]:
         run = shifted(f"field-{shape}-{shift}", shape, shift, ("system/controlDict", "endTime", "1e-3"), ("system/controlDict", "deltaT", "1e-3"),
                       ("system/controlDict", "writeInterval", "1e-3"), ("constant/materialProperties", "value", "(0 0 0 0 0 0)"))
         with h5py.File(run.folder / "0" / "state.h5", "a") as file:
@@ -38,7 +38,7 @@ for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
         case.check(f"largest error of F ({shape}, shift {shift})", np.abs(F - exponential).max(), "<=", 1e-14)
 
 # bursting square
-for shape in ("uGIMP", "cpGIMP", "quadraticBSpline"):
+for shape in ("uGIMP", "quadraticBSpline"):
     result = {}
     for shift in SHIFTS:
         run = shifted(f"burst-{shape}-{shift}", shape, shift)
