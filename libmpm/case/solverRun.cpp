@@ -47,8 +47,12 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
                 runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT, limit_.deltaT, limit_.courant,
                 stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape, limit_.waveSpeed, limit_.speed,
                 state_.grid.h));
+    const auto strains = StrainRecorder::recall(state_);
     if (!record.empty())
+    {
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
+        recorder_->resume(strains);
+    }
     written_.emplace(folder, runTime_->purgeWrite(), runTime_->timePrecision());
     written_->goOnFrom(state_, lastStored_);
     peakTime_ = firstTime_ = state_.time;
@@ -107,7 +111,7 @@ void SolverRun::openOutput()
     const auto continueAt = fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
     openSeries(continueAt);
     if (recorder_)
-        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_, continueAt);
+        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_, fresh ? std::nullopt : std::optional(state_.time));
     for (const auto& name : laterTimes_)
         folder_.removeTime(name);
     if (!history_->lastTime()) // a new series begins with the state it starts from
@@ -246,10 +250,14 @@ void SolverRun::writeState(bool outOfTurn)
     finishWriting();
     writingName_ = written_->next(state_, outOfTurn);
     writtenStep_ = state_.step;
+    if (recorder_)
+        recorder_->remember(state_);
     const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
     writing_ = std::async(std::launch::async, [this, pending] {
         history_->synchronise(); // a state on disk has its rows there
         budget_->synchronise();
+        if (recorder_)
+            recorder_->synchronise();
         pending->commit();
         lastStored_ = writingName_; // read after finishWriting only
         written_->committed();

@@ -70,7 +70,7 @@ std::string WrittenTimes::next(state::State& state, bool outOfTurn)
     {
         std::string list;
         for (const auto& old : purged_)
-            list += (list.empty() ? "" : " ") + old;
+            list.append(list.empty() ? "" : " ").append(old);
         state.provenance[purgeMark] = list;
     }
     name_ = distinctTimeName(state.time, inTurnTime_, precision_);
