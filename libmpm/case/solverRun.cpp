@@ -207,8 +207,6 @@ void SolverRun::step()
         goBack(fault);
     smallestStep_ = smallestStep_ > 0 ? std::min(smallestStep_, state_.deltaT) : state_.deltaT;
     largestStep_ = std::max(largestStep_, state_.deltaT);
-    if (recorder_)
-        recorder_->after(state_);
     profile_.countStep(state_.particles.size());
     if (state_.ledger.kineticEnergy > peakKinetic_)
     {
@@ -222,6 +220,8 @@ try
 {
     if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         finishWriting(); // a failure is told at once
+    if (recorder_)
+        recorder_->after(state_);
     const bool last = done();
     if (state_.step % runTime_->historyInterval() == 0 || last)
         writeRow();
