@@ -38,7 +38,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     monitor_->begin(state_, scene_.scene);
     restWaveSpeed_ = stepping::fastestWave(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
-    if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT)
+    const bool goesOn = state_.step > 0 && state_.deltaT == runTime_->deltaT(); // an uninterrupted run would, too
+    if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT && !goesOn)
         throw InputError(
             control.where("deltaT"),
             fmt::format(
@@ -111,7 +112,8 @@ void SolverRun::openOutput()
     const auto continueAt = fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
     openSeries(continueAt);
     if (recorder_)
-        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_, fresh ? std::nullopt : std::optional(state_.time));
+        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_,
+                        fresh ? std::nullopt : std::optional(state_.time));
     for (const auto& name : laterTimes_)
         folder_.removeTime(name);
     if (!history_->lastTime()) // a new series begins with the state it starts from
@@ -185,9 +187,15 @@ void SolverRun::goBack(const std::string& why)
         stepper_->particlesChanged();
         limit_ = stabilityLimit();
         openSeries(state_.time);
+        if (recorder_)
+            recorder_->goBack(folder_.postProcessing() / "strainPaths.csv", state_);
+        lastStored_ = written_->goBack(state_.time); // states of the way given up
+        writtenStep_ = -1;
+        writeSeries();
         return;
     }
-    giveUp(why + (monitor_->adapts() ? fmt::format(" (so it is with {:g} times the time step)", state_.stepFactor) : ""));
+    giveUp(why +
+           (monitor_->adapts() ? fmt::format(" (so it is with {:g} times the time step)", state_.stepFactor) : ""));
 }
 
 void SolverRun::giveUp(const std::string& why)
@@ -200,9 +208,13 @@ void SolverRun::giveUp(const std::string& why)
 void SolverRun::step()
 {
     const Clock clock(stepSeconds_);
-    monitor_->remember(state_);
+    const bool copied = monitor_->remember(state_);
     if (recorder_)
+    {
+        if (copied)
+            recorder_->keep();
         recorder_->before(state_);
+    }
     for (auto fault = tryStep(); !fault.empty(); fault = tryStep())
         goBack(fault);
     smallestStep_ = smallestStep_ > 0 ? std::min(smallestStep_, state_.deltaT) : state_.deltaT;

@@ -77,10 +77,24 @@ std::string WrittenTimes::next(state::State& state, bool outOfTurn)
     nameOutOfTurn_ = outOfTurn;
     if (!outOfTurn)
     {
+        before_.push_back({inTurn_, inTurnTime_});
         inTurn_ = name_;
         inTurnTime_ = state.time;
     }
     return name_;
+}
+
+std::string WrittenTimes::goBack(double time)
+{
+    while (inTurnTime_ > time && !before_.empty())
+    {
+        folder_.removeTime(inTurn_);
+        purged_.erase(std::remove(purged_.begin(), purged_.end(), inTurn_), purged_.end());
+        inTurn_ = before_.back().name;
+        inTurnTime_ = before_.back().value;
+        before_.pop_back();
+    }
+    return folder_.latestTime().name;
 }
 
 void WrittenTimes::committed()
