@@ -40,14 +40,13 @@ void RunMonitor::begin(const state::State& state, const stepping::Scene& scene)
     monitor_ = std::make_unique<stepping::Monitor>(state, scene, rule_);
 }
 
-bool RunMonitor::remember(state::State& state)
+void RunMonitor::remember(state::State& state)
 {
     if (!adapts() || (good_ && (state.step % stride != 0 || state.step == good_->step)))
-        return false;
+        return;
     if (state.step > 0 && state.step % recovery == 0) // also where a restart begins
         state.stepFactor = std::min(1.0, 2 * state.stepFactor);
     good_ = std::make_unique<state::State>(state);
-    return true;
 }
 
 std::string RunMonitor::look(const state::State& state, const stepping::StepReport& report, double waveSpeed)

@@ -23,8 +23,8 @@ class RunMonitor
     void begin(const state::State& state, const stepping::Scene& scene);
     bool adapts() const { return rule_.action == stepping::MonitorAction::adapt; }
 
-    /// Before a step. True if the state was copied.
-    bool remember(state::State& state);
+    /// Before a step.
+    void remember(state::State& state);
     /// After a step; empty: go on. `warn` prints a finding here, once each.
     std::string look(const state::State& state, const stepping::StepReport& report, double waveSpeed);
     /// adapt: puts the last copy back with half the step factor. False if it has come to 1/64, or was not asked for.

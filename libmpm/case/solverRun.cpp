@@ -187,8 +187,6 @@ void SolverRun::goBack(const std::string& why)
         stepper_->particlesChanged();
         limit_ = stabilityLimit();
         openSeries(state_.time);
-        if (recorder_)
-            recorder_->goBack(folder_.postProcessing() / "strainPaths.csv", state_);
         lastStored_ = written_->goBack(state_.time); // states of the way given up
         writtenStep_ = -1;
         writeSeries();
@@ -208,13 +206,9 @@ void SolverRun::giveUp(const std::string& why)
 void SolverRun::step()
 {
     const Clock clock(stepSeconds_);
-    const bool copied = monitor_->remember(state_);
+    monitor_->remember(state_);
     if (recorder_)
-    {
-        if (copied)
-            recorder_->keep();
         recorder_->before(state_);
-    }
     for (auto fault = tryStep(); !fault.empty(); fault = tryStep())
         goBack(fault);
     smallestStep_ = smallestStep_ > 0 ? std::min(smallestStep_, state_.deltaT) : state_.deltaT;

@@ -133,14 +133,6 @@ void StrainRecorder::resume(const std::string& memory)
     resumed_ = true;
 }
 
-void StrainRecorder::goBack(const std::filesystem::path& file, const state::State& state)
-{
-    paths_ = kept_;
-    resumed_ = true;
-    open(file, state, state.time);
-    before(state);
-}
-
 void StrainRecorder::synchronise() const
 {
     series_->synchronise();

@@ -37,9 +37,6 @@ class StrainRecorder
     void open(const std::filesystem::path& file, const state::State& state, std::optional<double> continueAt);
     /// Brings the rows to the disk.
     void synchronise() const;
-    /// For a run that goes back to a state: keep() when that state is copied, goBack() when it has been put back.
-    void keep() { kept_ = paths_; }
-    void goBack(const std::filesystem::path& file, const state::State& state);
     void before(const state::State& state);
     void after(const state::State& state);
 
@@ -53,7 +50,7 @@ class StrainRecorder
     Eigen::Matrix3d deformation(const state::State& state, Index id) const;
     void write(const state::State& state, const Path& path);
 
-    std::vector<Path> paths_, kept_;
+    std::vector<Path> paths_;
     bool resumed_ = false;
     std::unique_ptr<output::CsvSeries> series_;
 };

@@ -32,7 +32,7 @@ CODES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 WAYS = {
     "fixedStep": dict(adjustTimeStep="no", writeControl="timeStep", writeInterval="3", historyInterval="2"),
     "adjusted": dict(adjustTimeStep="yes", writeControl="runTime", writeInterval="0.005", historyInterval="3",
-                     timePrecision="3", maxCo="0.3"),
+                     timePrecision="3", maxCo="0.3", monitor="action stop;"),
     "landing": dict(adjustTimeStep="yes", writeControl="adjustableRunTime", writeInterval="0.006", purgeWrite="3",
                     historyInterval="7", maxCo="0.3"),
 }
@@ -85,8 +85,15 @@ class StoppedColumn(ColumnCase):
         """A fresh case; all bear the same folder name, which names their files for ParaView."""
         case = (below or cls.folder) / f"{name}-{way}" / "column"
         shutil.copytree(cls.seeded, case)
+        control = case / "system/controlDict"
+        if way == "landing":  # a run that may go back records no strain paths
+            control.write_text(re.sub(r"(?s)\nrecordStrain.*", "\n", control.read_text()))
+            (case / "postProcessing/strainPaths.csv").unlink()
         for word, value in WAYS[way].items():
-            cls.set(case, "system/controlDict", word, value)
+            if word == "monitor":
+                control.write_text(control.read_text() + f"monitor {{ {value} }}\n")
+            else:
+                cls.set(case, "system/controlDict", word, value)
         return case
 
     # helpers
