@@ -86,7 +86,10 @@ std::string WrittenTimes::next(state::State& state, bool outOfTurn)
 
 std::string WrittenTimes::goBack(double time)
 {
-    while (inTurnTime_ > time && !before_.empty())
+    const auto times = folder_.times();
+    const auto stands = [&](const Time& one) { return isNamed(times, one.name); };
+    // what purgeWrite has left must not become nothing
+    while (inTurnTime_ > time && std::any_of(before_.begin(), before_.end(), stands))
     {
         folder_.removeTime(inTurn_);
         purged_.erase(std::remove(purged_.begin(), purged_.end(), inTurn_), purged_.end());

@@ -149,6 +149,12 @@ TEST_CASE("a run that goes back removes what it wrote since, and nothing older")
     CHECK(c.names() == Names{"0", "2", "2.6", "3.1"});
     CHECK(written.goBack(-1) == "0"); // the state it started from stays
     CHECK(c.names() == Names{"0"});
+
+    fs::remove_all(c.path / "0");
+    WrittenTimes last(c.folder, 1, 6);
+    c.write(last, 1);
+    c.write(last, 2);
+    CHECK(last.goBack(0.5) == "2"); // the only one there is
 }
 
 TEST_CASE("marks of a hostile state reach nothing outside, and nonsense is no mark")
