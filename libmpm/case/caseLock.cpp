@@ -85,11 +85,12 @@ bool CaseLock::open()
 {
     constexpr int flags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | flags, 0666);
-    if (descriptor_ < 0 && errno == EACCES)
+    const int refused = errno;
+    if (descriptor_ < 0 && refused == EACCES)
         descriptor_ = ::open(file_.c_str(), O_RDONLY | flags); // left behind by another user: a lock all the same
     if (descriptor_ < 0)
         throw InputError({folder_.string()}, fmt::format("this folder cannot be written to: {}: {}",
-                                                         file_.filename().string(), std::strerror(errno)));
+                                                         file_.filename().string(), std::strerror(refused)));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0)
         return stillNamed();
     const int error = errno;

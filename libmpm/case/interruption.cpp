@@ -1,6 +1,7 @@
 #include "case/interruption.hpp"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstddef>
 
@@ -15,7 +16,9 @@ struct Watched
 };
 constexpr std::array<Watched, 3> watched = {{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}}};
 
-volatile std::sig_atomic_t received = 0;
+/// Signals reach any thread: not a sig_atomic_t, which is for one.
+std::atomic<int> received = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a handler may not wait");
 std::array<struct sigaction, watched.size()> before;
 
 /// Only what POSIX allows in a handler: a flag, and sigaction.

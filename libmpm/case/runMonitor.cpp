@@ -44,7 +44,7 @@ void RunMonitor::remember(state::State& state)
 {
     if (!adapts() || (good_ && (state.step % stride != 0 || state.step == good_->step)))
         return;
-    if (good_ && state.step % recovery == 0)
+    if (state.step > 0 && state.step % recovery == 0) // also where a restart begins
         state.stepFactor = std::min(1.0, 2 * state.stepFactor);
     good_ = std::make_unique<state::State>(state);
 }

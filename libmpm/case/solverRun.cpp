@@ -38,7 +38,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     monitor_->begin(state_, scene_.scene);
     restWaveSpeed_ = stepping::fastestWave(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
-    if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT)
+    const bool goesOn = state_.step > 0 && state_.deltaT == runTime_->deltaT(); // an uninterrupted run would, too
+    if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT && !goesOn)
         throw InputError(
             control.where("deltaT"),
             fmt::format(
@@ -47,8 +48,12 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
                 runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT, limit_.deltaT, limit_.courant,
                 stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape, limit_.waveSpeed, limit_.speed,
                 state_.grid.h));
+    const auto strains = StrainRecorder::recall(state_);
     if (!record.empty())
+    {
         recorder_ = std::make_unique<StrainRecorder>(std::move(record), state_, control.where("recordStrain"));
+        recorder_->resume(strains);
+    }
     written_.emplace(folder, runTime_->purgeWrite(), runTime_->timePrecision());
     written_->goOnFrom(state_, lastStored_);
     peakTime_ = firstTime_ = state_.time;
@@ -107,7 +112,8 @@ void SolverRun::openOutput()
     const auto continueAt = fresh ? std::nullopt : std::optional(state_.time - (outOfTurn ? 0.5 * state_.deltaT : 0.0));
     openSeries(continueAt);
     if (recorder_)
-        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_, continueAt);
+        recorder_->open(folder_.postProcessing() / "strainPaths.csv", state_,
+                        fresh ? std::nullopt : std::optional(state_.time));
     for (const auto& name : laterTimes_)
         folder_.removeTime(name);
     if (!history_->lastTime()) // a new series begins with the state it starts from
@@ -181,9 +187,13 @@ void SolverRun::goBack(const std::string& why)
         stepper_->particlesChanged();
         limit_ = stabilityLimit();
         openSeries(state_.time);
+        lastStored_ = written_->goBack(state_.time); // states of the way given up
+        writtenStep_ = -1;
+        writeSeries();
         return;
     }
-    giveUp(why + (monitor_->adapts() ? fmt::format(" (so it is with {:g} times the time step)", state_.stepFactor) : ""));
+    giveUp(why +
+           (monitor_->adapts() ? fmt::format(" (so it is with {:g} times the time step)", state_.stepFactor) : ""));
 }
 
 void SolverRun::giveUp(const std::string& why)
@@ -203,8 +213,6 @@ void SolverRun::step()
         goBack(fault);
     smallestStep_ = smallestStep_ > 0 ? std::min(smallestStep_, state_.deltaT) : state_.deltaT;
     largestStep_ = std::max(largestStep_, state_.deltaT);
-    if (recorder_)
-        recorder_->after(state_);
     profile_.countStep(state_.particles.size());
     if (state_.ledger.kineticEnergy > peakKinetic_)
     {
@@ -218,6 +226,8 @@ try
 {
     if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         finishWriting(); // a failure is told at once
+    if (recorder_)
+        recorder_->after(state_);
     const bool last = done();
     if (state_.step % runTime_->historyInterval() == 0 || last)
         writeRow();
@@ -246,10 +256,14 @@ void SolverRun::writeState(bool outOfTurn)
     finishWriting();
     writingName_ = written_->next(state_, outOfTurn);
     writtenStep_ = state_.step;
+    if (recorder_)
+        recorder_->remember(state_);
     const auto pending = std::make_shared<output::PendingState>(folder_.timePath(writingName_), state_);
     writing_ = std::async(std::launch::async, [this, pending] {
         history_->synchronise(); // a state on disk has its rows there
         budget_->synchronise();
+        if (recorder_)
+            recorder_->synchronise();
         pending->commit();
         lastStored_ = writingName_; // read after finishWriting only
         written_->committed();

@@ -1,12 +1,17 @@
 #include "case/strainRecorder.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fmt/format.h>
+#include <sstream>
 
 namespace mpm::cases
 {
 namespace
 {
+const std::string memoryName = "strainPaths"; // in the provenance of a state
+
 /// log A = 2 (Z + Z^3/3 + Z^5/5 ...), Z = (A - I)(A + I)^-1; A close to I, as the motion of one step is.
 Eigen::Matrix3d logarithm(const Eigen::Matrix3d& A)
 {
@@ -68,13 +73,69 @@ Eigen::Matrix3d StrainRecorder::deformation(const state::State& state, Index id)
 void StrainRecorder::open(const std::filesystem::path& file, const state::State& state,
                           std::optional<double> continueAt)
 {
-    // a path starts anew where the recording does, so a continued run does not append to an older one
-    series_ = std::make_unique<output::CsvSeries>(file, std::vector<std::string>{"particle", "time", "exx", "eyy",
-                                                                                 "ezz", "exy", "eyz", "ezx", "sxx",
-                                                                                 "syy", "szz", "sxy", "syz", "szx"});
-    (void)continueAt;
+    const bool goesOn = continueAt && resumed_ && std::filesystem::exists(file);
+    const std::vector<std::string> columns = {"particle", "time", "exx", "eyy", "ezz", "exy", "eyz",
+                                              "ezx",      "sxx",  "syy", "szz", "sxy", "syz", "szx"};
+    series_ = std::make_unique<output::CsvSeries>(file, columns, goesOn ? continueAt : std::nullopt, 1);
+    for (auto& path : paths_)
+        if (!goesOn)
+        {
+            path.frame = Eigen::Matrix3d::Identity();
+            path.strain = Eigen::Matrix3d::Zero();
+            write(state, path);
+        }
+}
+
+void StrainRecorder::remember(state::State& state) const
+{
+    std::string text;
     for (const auto& path : paths_)
-        write(state, path);
+    {
+        text += std::to_string(path.id);
+        for (const auto* matrix : {&path.frame, &path.strain})
+            for (const double value : matrix->reshaped())
+                text.append(" ").append(output::shortest(value));
+        text += "\n";
+    }
+    state.provenance[memoryName] = text;
+}
+
+std::string StrainRecorder::recall(state::State& state)
+{
+    const std::string memory = state.provenance[memoryName];
+    state.provenance.erase(memoryName);
+    return memory;
+}
+
+void StrainRecorder::resume(const std::string& memory)
+{
+    std::istringstream stream(memory);
+    auto paths = paths_;
+    for (auto& path : paths)
+    {
+        Index id = 0;
+        if (!(stream >> id) || id != path.id)
+            return;
+        for (auto* matrix : {&path.frame, &path.strain})
+            for (double& value : matrix->reshaped())
+            {
+                std::string word;
+                stream >> word;
+                if (std::from_chars(word.data(), word.data() + word.size(), value).ec != std::errc() ||
+                    !std::isfinite(value))
+                    return;
+            }
+    }
+    std::string more;
+    if (stream >> more)
+        return;
+    paths_ = std::move(paths);
+    resumed_ = true;
+}
+
+void StrainRecorder::synchronise() const
+{
+    series_->synchronise();
 }
 
 void StrainRecorder::before(const state::State& state)

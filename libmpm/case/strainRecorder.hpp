@@ -7,14 +7,16 @@
 ///     particle,time,exx,eyy,ezz,exy,eyz,ezx,sxx,syy,szz,sxy,syz,szx
 /// Strains are the sums of dt D, stresses sigma, both in the frame that turns with the particle: Q <- dR Q with the
 /// increment dR of the stress update, starting at Q = I when the recording starts; tensor components. dt L is the
-/// logarithm of F_new F_old^-1, so nothing is added to the step itself. A run that goes on from a stored time records
-/// anew from there: strain and frame are not part of a state.
+/// logarithm of F_new F_old^-1, so nothing is added to the step itself. Strain and frame stand in each state, in the
+/// text /provenance/strainPaths ("id, 9 numbers of Q, 9 of the strain" a particle), so that a run that goes on from it
+/// continues the rows. Without them (another list of particles, or no file) recording starts anew.
 #include "dictionary/dictionary.hpp"
 #include "output/csvSeries.hpp"
 #include "state/state.hpp"
 
 #include <Eigen/Dense>
 #include <memory>
+#include <string>
 
 namespace mpm::cases
 {
@@ -26,7 +28,15 @@ class StrainRecorder
 
     /// InputError if there is no particle of such an id.
     StrainRecorder(std::vector<Index> ids, const state::State& state, const Location& where);
+    /// Puts strain and frame into a state that is about to be written.
+    void remember(state::State& state) const;
+    /// Takes them out of a state that was read, whether it is recorded any longer or not.
+    static std::string recall(state::State& state);
+    /// Continues from there; `memory` is what recall() returned.
+    void resume(const std::string& memory);
     void open(const std::filesystem::path& file, const state::State& state, std::optional<double> continueAt);
+    /// Brings the rows to the disk.
+    void synchronise() const;
     void before(const state::State& state);
     void after(const state::State& state);
 
@@ -41,6 +51,7 @@ class StrainRecorder
     void write(const state::State& state, const Path& path);
 
     std::vector<Path> paths_;
+    bool resumed_ = false;
     std::unique_ptr<output::CsvSeries> series_;
 };
 } // namespace mpm::cases

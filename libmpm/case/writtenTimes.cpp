@@ -70,17 +70,34 @@ std::string WrittenTimes::next(state::State& state, bool outOfTurn)
     {
         std::string list;
         for (const auto& old : purged_)
-            list += (list.empty() ? "" : " ") + old;
+            list.append(list.empty() ? "" : " ").append(old);
         state.provenance[purgeMark] = list;
     }
     name_ = distinctTimeName(state.time, inTurnTime_, precision_);
     nameOutOfTurn_ = outOfTurn;
     if (!outOfTurn)
     {
+        before_.push_back({inTurn_, inTurnTime_});
         inTurn_ = name_;
         inTurnTime_ = state.time;
     }
     return name_;
+}
+
+std::string WrittenTimes::goBack(double time)
+{
+    const auto times = folder_.times();
+    const auto stands = [&](const Time& one) { return isNamed(times, one.name); };
+    // what purgeWrite has left must not become nothing
+    while (inTurnTime_ > time && std::any_of(before_.begin(), before_.end(), stands))
+    {
+        folder_.removeTime(inTurn_);
+        purged_.erase(std::remove(purged_.begin(), purged_.end(), inTurn_), purged_.end());
+        inTurn_ = before_.back().name;
+        inTurnTime_ = before_.back().value;
+        before_.pop_back();
+    }
+    return folder_.latestTime().name;
 }
 
 void WrittenTimes::committed()

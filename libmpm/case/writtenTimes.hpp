@@ -29,10 +29,17 @@ class WrittenTimes
     void tidy();
     /// The time folder for a state that is about to be written; puts the marks into it.
     std::string next(state::State& state, bool outOfTurn);
+    /// The run goes back to this time: what was written after it is removed. Returns the latest time folder left.
+    std::string goBack(double time);
     /// That state has reached the disk: removes what it makes superfluous.
     void committed();
 
   private:
+    struct Time
+    {
+        std::string name;
+        double value = 0; ///< [s], exact
+    };
     bool drop(const std::string& outOfTurn) const;
 
     const CaseDirectory& folder_;
@@ -43,6 +50,7 @@ class WrittenTimes
     bool nameOutOfTurn_ = false;      ///< is that one out of turn?
     std::string inTurn_;              ///< the last in turn
     double inTurnTime_ = 0;           ///< [s]
+    std::vector<Time> before_;        ///< those in turn before it, as far as this run knows them
     std::string outOfTurn_;           ///< the one on disk; empty: none
     std::vector<std::string> purged_; ///< those purgeWrite counts, oldest first
 };

@@ -32,8 +32,8 @@ std::string shortest(double value)
 }
 
 CsvSeries::CsvSeries(const std::filesystem::path& file, std::vector<std::string> columns,
-                     std::optional<double> continueAt)
-    : file_(file), columns_(std::move(columns))
+                     std::optional<double> continueAt, std::size_t timeColumn)
+    : file_(file), columns_(std::move(columns)), timeColumn_(timeColumn)
 {
     if (!file_.parent_path().empty())
         makeFolder(file_.parent_path());
@@ -60,7 +60,10 @@ std::string CsvSeries::keptRows(double until)
         if (stream.eof())
             break; // no newline: the run was killed while writing this row
         double time = 0;
-        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), time);
+        std::size_t begin = 0;
+        for (std::size_t column = 0; column < timeColumn_ && begin < line.size(); ++column)
+            begin = std::min(line.find(',', begin), line.size() - 1) + 1;
+        const auto [end, error] = std::from_chars(line.data() + begin, line.data() + line.size(), time);
         const auto commas = std::count(line.begin(), line.end(), ',');
         if (error != std::errc() || std::size_t(commas) + 1 != columns_.size() ||
             (end != line.data() + line.size() && *end != ','))
@@ -89,7 +92,7 @@ void CsvSeries::write(std::span<const double> row)
     stream_ << line << '\n' << std::flush;
     if (!stream_)
         throw InputError({file_.string()}, "a row cannot be written (disk full?)");
-    lastTime_ = row.front();
+    lastTime_ = row[timeColumn_];
 }
 
 void CsvSeries::synchronise() const

@@ -1,6 +1,6 @@
 #pragma once
-/// A time series as CSV: one header line, one row a time, first column `time`, numbers in their shortest form that
-/// reads back to the same bits. Rows reach the file one by one (nothing is buffered beyond a row).
+/// A time series as CSV: one header line, one row a time, first column `time` if not said otherwise, numbers in their
+/// shortest form that reads back to the same bits. Rows reach the file one by one (nothing is buffered beyond a row).
 ///
 /// A run that continues at time t keeps the rows up to t and cuts off later ones, those a former run wrote beyond the
 /// state that was restarted from, together with a last line that a killed run left unfinished; the file is rewritten
@@ -21,9 +21,9 @@ class CsvSeries
 {
   public:
     /// Without continueAt the series starts anew and replaces an old file. With it, rows with
-    /// time <= continueAt + 1e-10 |continueAt| stay; a missing file is begun.
+    /// time <= continueAt + 1e-10 |continueAt| stay; a missing file is begun. timeColumn: which column is the time.
     CsvSeries(const std::filesystem::path& file, std::vector<std::string> columns,
-              std::optional<double> continueAt = std::nullopt);
+              std::optional<double> continueAt = std::nullopt, std::size_t timeColumn = 0);
 
     /// One value a column. Throws InputError if the row cannot be written (disk full).
     void write(std::span<const double> row);
@@ -41,6 +41,7 @@ class CsvSeries
     std::filesystem::path file_;
     std::vector<std::string> columns_;
     std::ofstream stream_;
+    std::size_t timeColumn_;
     std::optional<double> lastTime_;
 };
 

@@ -134,6 +134,29 @@ TEST_CASE("purgeWrite counts the times in turn, over interruptions, and no other
     CHECK(c.names() == Names{"0", "0.05", "8", "9", "10", "11"});
 }
 
+TEST_CASE("a run that goes back removes what it wrote since, and nothing older")
+{
+    Case c;
+    c.put("0", 0);
+    WrittenTimes written(c.folder, 3, 6);
+    c.goOn(written);
+    for (const double time : {1, 2, 3, 4})
+        c.write(written, time);
+    CHECK(written.goBack(2.5) == "2");
+    CHECK(c.names() == Names{"0", "2"});
+    c.write(written, 2.6);
+    c.write(written, 3.1);
+    CHECK(c.names() == Names{"0", "2", "2.6", "3.1"});
+    CHECK(written.goBack(-1) == "0"); // the state it started from stays
+    CHECK(c.names() == Names{"0"});
+
+    fs::remove_all(c.path / "0");
+    WrittenTimes last(c.folder, 1, 6);
+    c.write(last, 1);
+    c.write(last, 2);
+    CHECK(last.goBack(0.5) == "2"); // the only one there is
+}
+
 TEST_CASE("marks of a hostile state reach nothing outside, and nonsense is no mark")
 {
     for (const std::string mark : {"../victim 0", "0 nan", "0 1e300", "0", "0 0 0", "/ 0", ". 0"})
