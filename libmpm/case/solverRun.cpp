@@ -58,7 +58,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     written_->goOnFrom(state_, lastStored_);
     peakTime_ = firstTime_ = state_.time;
     peakKinetic_ = state_.ledger.kineticEnergy;
-    firstStep_ = writtenStep_ = state_.step;
+    firstStep_ = writtenStep_ = limitStep_ = state_.step;
 }
 
 SolverRun::~SolverRun() = default;
@@ -153,7 +153,7 @@ double SolverRun::nextStep()
         const Clock clock(adaptSeconds_);
         if (stepping::limitFollowsMass(scene_.scene, limitIgnoresMass(scene_.shape)))
             limit_ = stabilityLimit();
-        else if (state_.step > firstStep_)
+        else if (state_.step != limitStep_) // the report is of a step that was kept
             limit_ = stepping::movedLimit(limit_, restWaveSpeed_, state_, stepper_->report().largestSpeed);
     }
     return stepSize();
@@ -186,6 +186,7 @@ void SolverRun::goBack(const std::string& why)
         finishWriting(); // it uses the series
         stepper_->particlesChanged();
         limit_ = stabilityLimit();
+        limitStep_ = state_.step;
         openSeries(state_.time);
         lastStored_ = written_->goBack(state_.time); // states of the way given up
         writtenStep_ = -1;
@@ -199,8 +200,17 @@ void SolverRun::goBack(const std::string& why)
 void SolverRun::giveUp(const std::string& why)
 {
     progress_.reset();
-    finishWriting();
-    throw StepError(fmt::format("{}\n    the last stored time is {}; nothing after it was kept", why, lastStored_));
+    std::string alsoFailed;
+    try
+    {
+        finishWriting();
+    }
+    catch (const InputError& error)
+    {
+        alsoFailed = fmt::format("\n    and {}", error.what());
+    }
+    throw StepError(fmt::format("{}{}\n    the last stored time is {}; nothing after it was kept", why, alsoFailed,
+                                lastStored_));
 }
 
 void SolverRun::step()

@@ -87,5 +87,6 @@ class SolverRun
     double stepSeconds_ = 0, adaptSeconds_ = 0;
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
     Index firstStep_ = 0, writtenStep_ = 0;
+    Index limitStep_ = 0; ///< the step limit_ was made anew at
 };
 } // namespace mpm::cases
