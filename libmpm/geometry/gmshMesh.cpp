@@ -4,7 +4,6 @@
 #include "geometry/elementSides.hpp"
 #include "geometry/flatten.hpp"
 #include "geometry/geometryFile.hpp"
-#include "geometry/silence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +38,6 @@ class Session
     }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
-
-  private:
-    Silence silence_;
 };
 
 /// Lines of gmsh's log that begin with "Error" or "Warning", without that word.
@@ -370,7 +366,7 @@ class Reader
 };
 } // namespace
 
-GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale)
+GmshMesh readGmshHere(const std::filesystem::path& file, int dim, double scale)
 {
     return Reader(file, dim, checkedEnding(file)).run(scale);
 }

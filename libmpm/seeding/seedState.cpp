@@ -123,6 +123,8 @@ SeedOptions readSeedOptions(const dictionary::Dictionary& dict)
                                               std::string{}});
     options.scale =
         dict.get<double>({"scale", "metres per unit of the geometry file", unit::none, Bound::positive(), 1.0});
+    options.meshingTime = dict.get<double>({"meshingTime", "how long gmsh may take over the geometry", unit::time,
+                                            Bound{0, 86400, true, false}, options.meshingTime});
     options.lattice.perCell = dict.get<Index>(
         {"particlesPerCell", "particles in a cell along each axis", unit::none, Bound::between(1, 100), Index(2)});
     options.lattice.jittered =

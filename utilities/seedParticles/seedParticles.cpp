@@ -63,7 +63,7 @@ int main(int argc, char** argv)
         for (const auto* dict : {&gridDict, &seedDict, &materialDict})
             dict->rejectUnread();
 
-        const auto body = geometry::readGeometry(here.geometryPath(how.geometry), grid.dim, how.scale);
+        const auto body = geometry::readGeometry(here.geometryPath(how.geometry), grid.dim, how.scale, how.meshingTime);
         seeding::Seeding seeded = seeding::seedState(body, grid, materials, how);
         seeded.state.provenance = {{"version", projectVersion()},
                                    {"revision", gitRevision()},
