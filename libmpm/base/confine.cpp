@@ -1,5 +1,8 @@
 #include "base/confine.hpp"
 
+#include "base/memory.hpp"
+
+#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <sys/resource.h>
@@ -112,9 +115,8 @@ bool confineProcess()
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CORE, 0);
 #ifndef MPM_SANITIZED // which map terabytes they never touch
-    const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
-    if (pages > 0 && size > 0)
-        limit(RLIMIT_DATA, rlim_t(pages) * rlim_t(size));
+    if (const double bytes = machineMemory(); std::isfinite(bytes))
+        limit(RLIMIT_DATA, rlim_t(bytes));
 #endif
     return filterCalls();
 }

@@ -1,9 +1,11 @@
 #include "seeding/seedState.hpp"
 
+#include "base/memory.hpp"
 #include "seeding/seedLattice.hpp"
 #include "seeding/surfacePatches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <unordered_map>
 
@@ -71,6 +73,24 @@ std::size_t materialOf(const geometry::Region& region, const std::vector<SeedMat
                     region.name(), wanted, joinWords(names),
                     near.empty() ? "" : fmt::format(" (did you mean {}?)", near), region.name(),
                     near.empty() ? names.front() : near));
+}
+
+/// A slip of the pen in cellSize or particlesPerCell is told before it takes the machine down.
+void requireMemory(const geometry::BodyGeometry& body, const state::GridBox& grid, const SeedOptions& options)
+{
+    constexpr double bytesOfParticle = 250, bytesOfPlane = 8; // what seeding holds at the least
+    const double perCell = double(options.lattice.perCell);
+    double particles = 0, planes = 0;
+    for (const auto& region : body.regions)
+        particles += region->volume() / std::pow(grid.h / perCell, body.dim);
+    for (int axis = 0; axis < body.dim; ++axis)
+        planes += double(grid.cells[std::size_t(axis)]) * perCell;
+    if (particles * bytesOfParticle + planes * bytesOfPlane > machineMemory())
+        throw InputError(options.where,
+                         fmt::format("found particlesPerCell {} in cells of {:.10g} m, which makes {:.2g} "
+                                     "particles, more than this machine's memory holds; allowed: larger cells or fewer "
+                                     "particles",
+                                     options.lattice.perCell, grid.h, particles));
 }
 
 void appendParticles(state::State& s, const geometry::Region& region, const std::vector<Seed>& seeds,
@@ -175,6 +195,7 @@ Seeding seedState(const geometry::BodyGeometry& body, const state::GridBox& grid
                                                         near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
         }
 
+    requireMemory(body, grid, options);
     BoxLattice lattice(grid, options.lattice);
     for (const auto& region : body.regions)
         lattice.fit(*region);

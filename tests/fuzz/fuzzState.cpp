@@ -67,7 +67,8 @@ void sealAll(std::uint8_t* data, std::size_t size)
         if (std::memcmp(data + at, "OHDR", 4) == 0)
         {
             const unsigned flags = data[at + 5];
-            const std::size_t head = 6 + (flags & 0x20 ? 16u : 0u) + (flags & 0x10 ? 4u : 0u), width = 1u << (flags & 3);
+            const std::size_t head = 6 + (flags & 0x20 ? 16u : 0u) + (flags & 0x10 ? 4u : 0u),
+                              width = 1u << (flags & 3);
             std::size_t chunk = 0;
             for (std::size_t i = 0; i < width && at + head + i < size; ++i)
                 chunk += std::size_t(data[at + head + i]) << (8 * i);
