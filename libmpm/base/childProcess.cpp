@@ -56,7 +56,7 @@ constexpr int codeOfException = 70;
 }
 
 /// Reads to the end of the pipe; says what went wrong, if anything.
-std::string collect(int in, const ChildLimits& limits, std::string& bytes)
+std::string collect(int in, const ChildLimits& limits, ChildAnswer& answer)
 {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
@@ -65,15 +65,18 @@ std::string collect(int in, const ChildLimits& limits, std::string& bytes)
     {
         const double left = std::chrono::duration<double>(end - Clock::now()).count();
         if (left <= 0)
+        {
+            answer.late = true;
             return fmt::format("took longer than {:g} s and was ended", limits.seconds);
+        }
         pollfd ready{in, POLLIN, 0};
         if (::poll(&ready, 1, int(std::min(left, 1.0) * 1000) + 1) <= 0)
             continue;
         const ssize_t n = ::read(in, block.data(), block.size());
         if (n == 0)
             return "";
-        bytes.append(block.data(), std::size_t(std::max<ssize_t>(n, 0)));
-        if (bytes.size() > limits.answerBytes)
+        answer.bytes.append(block.data(), std::size_t(std::max<ssize_t>(n, 0)));
+        if (answer.bytes.size() > limits.answerBytes)
             return fmt::format("answered with more than {} MB and was ended", limits.answerBytes >> 20);
     }
 }
@@ -107,7 +110,7 @@ ChildAnswer runInChild(const std::function<std::string()>& work, const ChildLimi
         answer.failure = fmt::format("could not be started: {}", std::strerror(errno));
     else
     {
-        answer.failure = collect(ends[0], limits, answer.bytes);
+        answer.failure = collect(ends[0], limits, answer);
         if (!answer.failure.empty())
             ::kill(process, SIGKILL);
         int status = 0;

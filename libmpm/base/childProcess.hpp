@@ -25,6 +25,7 @@ struct ChildAnswer
 {
     std::string bytes;   ///< what the work returned; empty after a failure
     std::string failure; ///< why there is no answer, to stand after the name of who failed; empty if there is one
+    bool late = false;   ///< it failed because its time was over
 };
 
 /// The work must return at least one byte and handle its own exceptions: one that escapes is a failure.

@@ -26,7 +26,8 @@ GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale, doub
     };
     const ChildAnswer answer = runInChild(work, {.seconds = seconds});
     if (!answer.failure.empty())
-        throw InputError({file.string(), 0}, "gmsh, which reads it, " + answer.failure);
+        throw InputError({file.string(), 0}, "gmsh, which reads it, " + answer.failure +
+                                                 (answer.late ? "; meshingTime of seedParticlesDict allows more" : ""));
     return meshFromBytes(answer.bytes, file, dim);
 }
 } // namespace mpm::geometry

@@ -107,11 +107,12 @@ void appendParticles(state::State& s, const geometry::Region& region, const std:
         const Seed& seed = seeds[i];
         const std::size_t at = std::size_t(first) + i;
         if (stress.above(seed.centre, highest))
-            throw InputError(fmt::format(
-                "material '{}': initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
-                "surfaceLevel",
-                material.name, region.name(), geometry::placeText(seed.centre, p.dim),
-                stress.surfaceLevel.value_or(highest)));
+            throw InputError(
+                material.where,
+                fmt::format("{}: initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
+                            "surfaceLevel",
+                            material.name, region.name(), geometry::placeText(seed.centre, p.dim),
+                            stress.surfaceLevel.value_or(highest)));
         const auto sigma = stress.at(seed.centre, material.density, highest);
         for (std::size_t k = 0; k < std::size_t(p.dim); ++k)
         {
@@ -141,6 +142,7 @@ SeedOptions readSeedOptions(const dictionary::Dictionary& dict)
                                               unit::none,
                                               {},
                                               std::string{}});
+    options.geometryWhere = dict.where("geometry");
     options.scale =
         dict.get<double>({"scale", "metres per unit of the geometry file", unit::none, Bound::positive(), 1.0});
     options.meshingTime = dict.get<double>({"meshingTime", "how long gmsh may take over the geometry", unit::time,
@@ -197,8 +199,15 @@ Seeding seedState(const geometry::BodyGeometry& body, const state::GridBox& grid
 
     requireMemory(body, grid, options);
     BoxLattice lattice(grid, options.lattice);
-    for (const auto& region : body.regions)
-        lattice.fit(*region);
+    try
+    {
+        for (const auto& region : body.regions)
+            lattice.fit(*region);
+    }
+    catch (const InputError& error)
+    {
+        throw InputError({body.file.string(), 0}, error.what());
+    }
     for (std::size_t k = 0; k < std::size_t(body.dim); ++k)
         s.seedSpacing[k] = lattice.spacing();
 

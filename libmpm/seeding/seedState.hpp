@@ -29,7 +29,8 @@ namespace mpm::seeding
 {
 struct SeedOptions
 {
-    std::string geometry; ///< as written; empty: not given
+    std::string geometry;   ///< as written; empty: not given
+    Location geometryWhere; ///< of that word
     double scale = 1;
     double meshingTime = 300; ///< [s]
     LatticeOptions lattice;
