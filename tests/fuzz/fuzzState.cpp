@@ -3,8 +3,6 @@
 #include "output/stateFile.hpp"
 
 #include <cstring>
-#include <sys/mman.h>
-#include <unistd.h>
 
 using namespace mpm;
 
@@ -88,13 +86,12 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    static const int descriptor = ::memfd_create("state.h5", 0);
-    static const std::string file = "/proc/self/fd/" + std::to_string(descriptor);
-    fuzz::require(::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, data, size, 0) == ssize_t(size), "memory");
+    static const fuzz::Folder folder;
+    const auto file = folder.write("state.h5", std::string(reinterpret_cast<const char*>(data), size));
     fuzz::accepted([&] { output::readSummary(file); });
     fuzz::accepted([&] {
         const state::State state = output::readState(file);
-        output::requireValid(state, file);
+        output::requireValid(state, file.string());
         fuzz::require(std::uint64_t(state.particles.size()) * 8 <= size, "no more particles than the file can hold");
     });
     return 0;

@@ -30,7 +30,10 @@ bool accepted(Action&& action)
     }
     catch (const InputError& error)
     {
-        require(error.what()[0] != '\0', "a message says something");
+        require(error.what()[0] != 0, "a message says something");
+        static const bool says = std::getenv("MPM_FUZZ_SAYS") != nullptr; // to look at one input
+        if (says)
+            std::fprintf(stderr, "%s\n", error.what());
         return false;
     }
 }
