@@ -11,6 +11,7 @@ namespace mpm::geometry
 namespace
 {
 constexpr char meshMark = 'm', refusalMark = 'r';
+constexpr std::size_t longestRefusal = 4000; // characters
 
 class Writer
 {
@@ -90,6 +91,18 @@ class Reader
     std::size_t at_ = 0;
 };
 
+/// Text of a stranger: as one that can be printed, with the file's name at its beginning.
+[[noreturn]] void refuse(std::string text, const std::filesystem::path& file)
+{
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127)
+            c = ' ';
+    if (text.rfind(file.string(), 0) == 0)
+        throw InputError(text);
+    throw InputError({file.string(), 0},
+                     text.find_first_not_of(' ') == std::string::npos ? "gmsh gave no reason" : text);
+}
+
 /// Indices of points, all different; the third is -1 in 2D.
 void checkElements(const std::vector<Simplex>& elements, const GmshMesh& mesh, const Reader& in)
 {
@@ -134,7 +147,7 @@ std::string refusalBytes(const std::string& message)
 GmshMesh meshFromBytes(const std::string& bytes, const std::filesystem::path& file, int dim)
 {
     if (!bytes.empty() && bytes[0] == refusalMark)
-        throw InputError(bytes.substr(1));
+        refuse(bytes.substr(1, longestRefusal), file);
     Reader in(bytes, file);
     if (in.plain<char>() != meshMark || in.plain<std::int32_t>() != dim)
         in.fail("its beginning is wrong");

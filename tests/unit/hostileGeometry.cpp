@@ -174,7 +174,11 @@ TEST_CASE("what gmsh's process answers is believed only as far as it holds")
         CHECK_THAT(refusal(bytes.substr(0, keep)), StartsWith("body.geo: "));
     CHECK_THAT(refusal(bytes + "x"), Contains("goes on after its end"));
     CHECK_THAT(refusal(bytes, 3), Contains("beginning is wrong"));
-    CHECK(refusal(refusalBytes("column.geo: no")) == "column.geo: no");
+    CHECK(refusal(refusalBytes("body.geo:2: no")) == "body.geo:2: no");
+    CHECK(refusal(refusalBytes("no")) == "body.geo: no");
+    CHECK(refusal(refusalBytes(std::string(3, '\0'))) == "body.geo: gmsh gave no reason");
+    CHECK(refusal(refusalBytes("\x1b[2J\nno")) == "body.geo:  [2J no");
+    CHECK(refusal(refusalBytes(std::string(100000, 'x'))).size() < 5000);
 
     GmshMesh wrong = mesh;
     wrong.regions[0].parts[0][1][0] = 3;
