@@ -96,7 +96,7 @@ ChildAnswer runInChild(const std::function<std::string()>& work, const ChildLimi
 {
     int ends[2];
     if (::pipe(ends) != 0)
-        return {"", fmt::format("could not be started: {}", std::strerror(errno))};
+        return {.bytes = {}, .failure = fmt::format("could not be started: {}", std::strerror(errno))};
     std::fflush(nullptr);
     const pid_t parent = ::getpid(), process = ::fork();
     if (process == 0)
@@ -110,6 +110,7 @@ ChildAnswer runInChild(const std::function<std::string()>& work, const ChildLimi
         answer.failure = fmt::format("could not be started: {}", std::strerror(errno));
     else
     {
+        answer.ran = true;
         answer.failure = collect(ends[0], limits, answer);
         if (!answer.failure.empty())
             ::kill(process, SIGKILL);

@@ -25,6 +25,7 @@ struct ChildAnswer
 {
     std::string bytes;   ///< what the work returned; empty after a failure
     std::string failure; ///< why there is no answer, to stand after the name of who failed; empty if there is one
+    bool ran = false;    ///< false: the process could not even be started
     bool late = false;   ///< it failed because its time was over
 };
 
