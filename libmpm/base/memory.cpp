@@ -1,7 +1,9 @@
 #include "base/memory.hpp"
 
 #include <fstream>
+#include <limits>
 #include <string>
+#include <unistd.h>
 
 namespace mpm
 {
@@ -12,5 +14,11 @@ double peakMemory()
         if (double kilobytes = 0; word == "VmHWM:" && status >> kilobytes)
             return 1024 * kilobytes;
     return 0;
+}
+
+double machineMemory()
+{
+    const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+    return pages > 0 && size > 0 ? double(pages) * double(size) : std::numeric_limits<double>::infinity();
 }
 } // namespace mpm

@@ -101,7 +101,10 @@ std::string CaseDirectory::name() const
 bool CaseDirectory::hasFile(const std::string& relative) const
 {
     std::error_code error;
-    return fs::is_regular_file(folder_ / relative, error);
+    const auto status = fs::status(folder_ / relative, error);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw InputError({(folder_ / relative).string()}, "found a folder or a device, allowed a file");
+    return fs::exists(status);
 }
 
 fs::path CaseDirectory::dictionaryPath(const std::string& relative) const

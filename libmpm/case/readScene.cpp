@@ -310,6 +310,14 @@ void takeGrid(const Dictionary& gridDict, state::State& state)
                         "{:g}); to change it run seedParticles -overwrite",
                         own.dim, own.h, own.origin[0], own.origin[1], own.origin[2]));
     own = grid;
+    const auto& p = state.particles;
+    for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        for (int a = 0; a < grid.dim; ++a)
+            if (const double x = p.x[std::size_t(a)][i]; !(x >= grid.origin[a] && x <= grid.upper(a)))
+                gridDict.fail(
+                    x < grid.origin[a] ? "min" : "max",
+                    fmt::format("{} from {:g} to {:g} m", axisNames[std::size_t(a)], grid.origin[a], grid.upper(a)),
+                    fmt::format("a box around all particles: the one with id {} lies at {:g} m", p.id[i], x));
 }
 
 /// Materials in the state's order.

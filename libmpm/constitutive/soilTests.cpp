@@ -166,7 +166,7 @@ SoilTest readSoilTest(const Dictionary& law, const std::string& path, double poi
     SoilTest test;
     test.path = path;
     test.steps = d.get<Index>({"steps", "steps of the test, for a table between its rows", unit::none,
-                               Bound::atLeast(1), Index(table ? 1 : 500)});
+                               Bound::between(1, 1e7), Index(table ? 1 : 500)});
     const auto words = [&](bool wanted, const std::string& word, auto read) {
         if (wanted)
             read();

@@ -1,4 +1,5 @@
 // Files: reading them within bounds, and #include kept inside the case folder and the project's etc.
+#include "base/folders.hpp"
 #include "base/version.hpp"
 #include "dictionary/parser.hpp"
 
@@ -13,19 +14,6 @@ namespace mpm::dictionary
 {
 namespace
 {
-bool isInside(const fs::path& file, const fs::path& folder)
-{
-    if (folder.empty())
-        return false;
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
-fs::path realPath(const fs::path& path)
-{
-    std::error_code none;
-    return fs::canonical(path, none); // empty when it does not exist
-}
-
 fs::path etcFolder()
 {
     return fs::path(projectFolder()) / "etc";
@@ -155,9 +143,8 @@ void Parser::include(Node& node, const Token& directive, const Token& name)
     else if (file.is_relative())
         file = fs::path(*name.file).parent_path() / file;
 
-    std::error_code none;
-    const fs::path real = fs::weakly_canonical(file, none); // links and '..' followed as far as the path exists
-    if (real.empty() || !(isInside(real, realPath(root_)) || isInside(real, realPath(etcFolder()))))
+    const fs::path real = realPath(file);
+    if (!isWithinReach(real, root_))
         fail("lies outside the case folder and the project's etc");
     for (const auto& outer : reading_)
         if (outer == real)

@@ -147,12 +147,16 @@ double Boundary::area() const
     return sum;
 }
 
-BodyGeometry readGeometry(const std::filesystem::path& file, int dim, double scale)
+BodyGeometry readGeometry(const std::filesystem::path& file, int dim, double scale, double seconds)
 {
-    GmshMesh mesh = readGmsh(file, dim, scale);
+    return makeBody(readGmsh(file, dim, scale, seconds));
+}
+
+BodyGeometry makeBody(GmshMesh mesh)
+{
     BodyGeometry body;
-    body.dim = dim;
-    body.file = file;
+    const int dim = body.dim = mesh.dim;
+    const std::filesystem::path& file = body.file = mesh.file;
     body.notes = std::move(mesh.notes);
     std::vector<Surface> surfaces;
     for (const RawRegion& raw : mesh.regions)

@@ -4,6 +4,7 @@
 /// Errors (InputError) name file, region and place: everything gmshMesh.hpp, region2D.hpp and region3D.hpp refuse, a
 /// hole outside its surface, parts of a region that overlap, two regions that overlap in 2D (the area is exact; in 3D
 /// the seeding sees overlaps).
+#include "geometry/gmshMesh.hpp"
 #include "geometry/region.hpp"
 
 #include <filesystem>
@@ -37,5 +38,9 @@ struct BodyGeometry
 
 /// Reads and checks a geometry file; coordinates are multiplied by scale. An element of a boundary between two regions
 /// faces out of the one named first; a boundary that bounds no region is left out with a note.
-BodyGeometry readGeometry(const std::filesystem::path& file, int dim, double scale = 1);
+/// seconds: how long gmsh may take.
+BodyGeometry readGeometry(const std::filesystem::path& file, int dim, double scale = 1, double seconds = 300);
+
+/// The second half of readGeometry: checks what was read. Its points are finite, its indices those of points.
+BodyGeometry makeBody(GmshMesh mesh);
 } // namespace mpm::geometry

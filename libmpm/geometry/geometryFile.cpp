@@ -10,11 +10,17 @@
 
 namespace mpm::geometry
 {
+std::string lowerEnding(const std::filesystem::path& file)
+{
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return ending;
+}
+
 std::string checkedEnding(const std::filesystem::path& file)
 {
     static const std::vector<std::string> known = {".geo", ".step", ".stp", ".stl", ".msh"};
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = lowerEnding(file);
     if (std::find(known.begin(), known.end(), ending) == known.end())
         throw InputError({file.string(), 0},
                          fmt::format("found the ending '{}', allowed: {}", ending, joinWords(known)));

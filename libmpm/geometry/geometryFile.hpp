@@ -7,6 +7,9 @@ namespace mpm::geometry
 /// ".geo", in lower case. Throws InputError for an ending we do not read and for a file that cannot be read.
 std::string checkedEnding(const std::filesystem::path& file);
 
+/// The ending alone, in lower case.
+std::string lowerEnding(const std::filesystem::path& file);
+
 /// gmsh drops the last line of a .geo file that lacks its line end.
 bool endsWithNewline(const std::filesystem::path& file);
 

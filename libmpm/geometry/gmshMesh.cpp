@@ -4,7 +4,6 @@
 #include "geometry/elementSides.hpp"
 #include "geometry/flatten.hpp"
 #include "geometry/geometryFile.hpp"
-#include "geometry/silence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +38,6 @@ class Session
     }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
-
-  private:
-    Silence silence_;
 };
 
 /// Lines of gmsh's log that begin with "Error" or "Warning", without that word.
@@ -87,8 +83,17 @@ void guarded(const std::filesystem::path& file, Action&& action)
         errors.push_back(thrown);
     if (errors.size() > 3)
         errors.resize(3);
-    if (!errors.empty())
-        throw InputError({file.string(), 0}, "gmsh: " + joinWords(errors, "; "));
+    if (errors.empty())
+        return;
+    int line = 0; // gmsh begins with it: 'column.geo', line 2: ...
+    const std::string place = fmt::format("'{}', line ", file.string());
+    if (errors[0].rfind(place, 0) == 0)
+        if (const std::size_t colon = errors[0].find(": "); colon != std::string::npos)
+        {
+            line = std::atoi(errors[0].c_str() + place.size());
+            errors[0].erase(0, colon + 2);
+        }
+    throw InputError({file.string(), line}, "gmsh: " + joinWords(errors, "; "));
 }
 
 class Reader
@@ -370,7 +375,7 @@ class Reader
 };
 } // namespace
 
-GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale)
+GmshMesh readGmshHere(const std::filesystem::path& file, int dim, double scale)
 {
     return Reader(file, dim, checkedEnding(file)).run(scale);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Geometry files through gmsh's C++ API, as plain numbers. The only place where gmsh is used.
+/// Geometry files through gmsh's C++ API, as plain numbers. Only gmshMesh.cpp uses gmsh.
 ///
 ///     .geo           gmsh's own language, both of its kernels; only curves (2D) or surfaces (3D) are meshed
 ///     .step, .stp    CAD; a labelled solid or face is a region or boundary of its label, else all are one region
@@ -17,8 +17,9 @@
 /// Errors (InputError, with the file's name): unreadable file or what gmsh says of it, no entity of the asked
 /// dimension, a plane geometry that is not in a plane z = constant, elements of higher order.
 ///
-/// gmsh is started and stopped inside the call and writes nothing; standard output and error are closed meanwhile, so
-/// do not call it while other threads print.
+/// gmsh runs in a child process (base/childProcess.hpp), so that its crash, its endless loop or its exit() is a message
+/// of ours, and it can neither write files nor start programs. Commands that would are refused by name
+/// (gmshScript.hpp).
 #include "geometry/simplex.hpp"
 
 #include <filesystem>
@@ -49,5 +50,9 @@ struct GmshMesh
     std::vector<std::string> notes;      ///< what a user should know: choices made, gmsh's warnings
 };
 
-GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale = 1);
+/// seconds: how long gmsh may take.
+GmshMesh readGmsh(const std::filesystem::path& file, int dim, double scale = 1, double seconds = 300);
+
+/// The same in this process, without any of the guards: what the child does.
+GmshMesh readGmshHere(const std::filesystem::path& file, int dim, double scale);
 } // namespace mpm::geometry

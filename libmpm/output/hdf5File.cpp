@@ -1,6 +1,7 @@
 #include "output/hdf5File.hpp"
 
 #include "base/error.hpp"
+#include "output/hdf5Probe.hpp"
 
 #include <algorithm>
 #include <array>
@@ -174,6 +175,7 @@ std::int64_t Hdf5File::openExisting(const std::filesystem::path& file, bool writ
         throw InputError({file.string()}, "is not a file");
     if (H5Fis_hdf5(file.c_str()) <= 0)
         throw InputError({file.string()}, "is not an HDF5 file (truncated, foreign, or not readable)");
+    requireHarmless(file);
     const hid_t id = H5Fopen(file.c_str(), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
     if (id < 0)
         throw InputError({file.string()}, "cannot be opened as HDF5: truncated, damaged, or locked by another program");

@@ -157,8 +157,8 @@ class Checker
             const auto i = std::size_t(first + l);
             const double J = determinant<dim>(p_, i);
             bad |= !(J > 0) | !std::isfinite(J);
-            bad |= (p_.material[i] < 0) | (p_.material[i] >= materials) | (p_.generation[i] < 0);
-            bad |= (p_.id[i] < 0) | (p_.id[i] >= state_.nextId);
+            bad |= int(p_.material[i] < 0) | int(p_.material[i] >= materials) | int(p_.generation[i] < 0);
+            bad |= int(p_.id[i] < 0) | int(p_.id[i] >= state_.nextId);
         }
         return bad == 0;
     }

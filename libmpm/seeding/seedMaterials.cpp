@@ -17,6 +17,7 @@ std::vector<SeedMaterial> readMaterials(const dictionary::Dictionary& materialPr
         const auto law = constitutive::makeLaw(dict);
         SeedMaterial material;
         material.name = name;
+        material.where = dict.where();
         material.description = law->describe();
         material.density = dict.get<double>({"density", "mass per initial volume", unit::density, Bound::positive()});
         material.velocity =

@@ -22,6 +22,7 @@ struct SeedMaterial
     Vector3 velocity{}; ///< [m/s]
     InitialStress initialStress;
     std::string description; ///< of the law, for the banner
+    Location where;          ///< of the dictionary
 };
 
 /// All materials of the file, in its order. Throws InputError (file:line) for what law, density ... cannot be.

@@ -1,9 +1,11 @@
 #include "seeding/seedState.hpp"
 
+#include "base/memory.hpp"
 #include "seeding/seedLattice.hpp"
 #include "seeding/surfacePatches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <unordered_map>
 
@@ -73,6 +75,24 @@ std::size_t materialOf(const geometry::Region& region, const std::vector<SeedMat
                     near.empty() ? names.front() : near));
 }
 
+/// A slip of the pen in cellSize or particlesPerCell is told before it takes the machine down.
+void requireMemory(const geometry::BodyGeometry& body, const state::GridBox& grid, const SeedOptions& options)
+{
+    constexpr double bytesOfParticle = 250, bytesOfPlane = 8; // what seeding holds at the least
+    const double perCell = double(options.lattice.perCell);
+    double particles = 0, planes = 0;
+    for (const auto& region : body.regions)
+        particles += region->volume() / std::pow(grid.h / perCell, body.dim);
+    for (int axis = 0; axis < body.dim; ++axis)
+        planes += double(grid.cells[std::size_t(axis)]) * perCell;
+    if (particles * bytesOfParticle + planes * bytesOfPlane > machineMemory())
+        throw InputError(options.where,
+                         fmt::format("found particlesPerCell {} in cells of {:.10g} m, which makes {:.2g} "
+                                     "particles, more than this machine's memory holds; allowed: larger cells or fewer "
+                                     "particles",
+                                     options.lattice.perCell, grid.h, particles));
+}
+
 void appendParticles(state::State& s, const geometry::Region& region, const std::vector<Seed>& seeds,
                      const SeedMaterial& material, int materialIndex, SeededRegion& report)
 {
@@ -87,11 +107,12 @@ void appendParticles(state::State& s, const geometry::Region& region, const std:
         const Seed& seed = seeds[i];
         const std::size_t at = std::size_t(first) + i;
         if (stress.above(seed.centre, highest))
-            throw InputError(fmt::format(
-                "material '{}': initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
-                "surfaceLevel",
-                material.name, region.name(), geometry::placeText(seed.centre, p.dim),
-                stress.surfaceLevel.value_or(highest)));
+            throw InputError(
+                material.where,
+                fmt::format("{}: initialStress: region '{}' has soil at {}, above surfaceLevel {:.9g}; raise "
+                            "surfaceLevel",
+                            material.name, region.name(), geometry::placeText(seed.centre, p.dim),
+                            stress.surfaceLevel.value_or(highest)));
         const auto sigma = stress.at(seed.centre, material.density, highest);
         for (std::size_t k = 0; k < std::size_t(p.dim); ++k)
         {
@@ -121,8 +142,11 @@ SeedOptions readSeedOptions(const dictionary::Dictionary& dict)
                                               unit::none,
                                               {},
                                               std::string{}});
+    options.geometryWhere = dict.where("geometry");
     options.scale =
         dict.get<double>({"scale", "metres per unit of the geometry file", unit::none, Bound::positive(), 1.0});
+    options.meshingTime = dict.get<double>({"meshingTime", "how long gmsh may take over the geometry", unit::time,
+                                            Bound{0, 86400, true, false}, options.meshingTime});
     options.lattice.perCell = dict.get<Index>(
         {"particlesPerCell", "particles in a cell along each axis", unit::none, Bound::between(1, 100), Index(2)});
     options.lattice.jittered =
@@ -173,9 +197,17 @@ Seeding seedState(const geometry::BodyGeometry& body, const state::GridBox& grid
                                                         near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
         }
 
+    requireMemory(body, grid, options);
     BoxLattice lattice(grid, options.lattice);
-    for (const auto& region : body.regions)
-        lattice.fit(*region);
+    try
+    {
+        for (const auto& region : body.regions)
+            lattice.fit(*region);
+    }
+    catch (const InputError& error)
+    {
+        throw InputError({body.file.string(), 0}, error.what());
+    }
     for (std::size_t k = 0; k < std::size_t(body.dim); ++k)
         s.seedSpacing[k] = lattice.spacing();
 

@@ -4,6 +4,7 @@
 ///     // system/seedParticlesDict
 ///     geometry         "geometry/column.geo"; // default: the only file in geometry/
 ///     scale            1;                     // its coordinates times this are metres
+///     meshingTime      300;                   // [s] gmsh may take over the geometry, then it is ended; at most 86400
 ///     particlesPerCell 2;                     // along each axis; default 2
 ///     arrangement      lattice;               // lattice (default) | jittered
 ///     jitter           0.2;                   // [-] of a box side, in [0, 0.5); only with jittered
@@ -28,8 +29,10 @@ namespace mpm::seeding
 {
 struct SeedOptions
 {
-    std::string geometry; ///< as written; empty: not given
+    std::string geometry;   ///< as written; empty: not given
+    Location geometryWhere; ///< of that word
     double scale = 1;
+    double meshingTime = 300; ///< [s]
     LatticeOptions lattice;
     std::map<std::string, std::string> materialOf; ///< region -> material, where given
     Location where;                                ///< of the dictionary, or of `regions` in it

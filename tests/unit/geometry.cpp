@@ -311,7 +311,7 @@ TEST_CASE("bad files are refused with their name and what to do")
     };
     refused("missing.geo", 2, "cannot be read");
     refused(writeText("body.dxf", "0"), 2, ".geo, .step, .stp, .stl or .msh");
-    refused(writeText("syntax.geo", "Point(1) = {0, 0, 0};\nfoo bar;\n"), 2, "line 2");
+    refused(writeText("syntax.geo", "Point(1) = {0, 0, 0};\nfoo bar;\n"), 2, "syntax.geo:2: gmsh: ");
     refused(writeText("empty.geo", "Point(1) = {0, 0, 0};\n"), 2, "asks for 2");
     refused(writeText("flat.geo", plateWithHole), 3, "dimension 2, but gridDict asks for 3");
     refused(writeText("tilted.geo", R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1};

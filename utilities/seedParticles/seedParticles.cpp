@@ -7,6 +7,7 @@
 #include "case/caseLock.hpp"
 #include "case/gridFromDict.hpp"
 #include "case/readScene.hpp"
+#include "geometry/geometryFile.hpp"
 #include "output/paraviewSeries.hpp"
 #include "output/stateFile.hpp"
 #include "seeding/seedReport.hpp"
@@ -29,6 +30,22 @@ void refuseOldState(const cases::CaseDirectory& here, bool overwrite)
         fmt::print(
             "note: times of an earlier run stay, up to {}; startFrom of controlDict says where mpmSolve begins\n",
             times.back().name);
+}
+/// The geometry file; a wrong name is told where it was written.
+std::filesystem::path geometryFile(const cases::CaseDirectory& here, const seeding::SeedOptions& how)
+{
+    try
+    {
+        const auto file = here.geometryPath(how.geometry);
+        geometry::checkedEnding(file);
+        return file;
+    }
+    catch (const InputError& error)
+    {
+        if (how.geometry.empty())
+            throw;
+        throw InputError(how.geometryWhere, std::string("geometry: ") + error.what());
+    }
 }
 } // namespace
 
@@ -63,7 +80,7 @@ int main(int argc, char** argv)
         for (const auto* dict : {&gridDict, &seedDict, &materialDict})
             dict->rejectUnread();
 
-        const auto body = geometry::readGeometry(here.geometryPath(how.geometry), grid.dim, how.scale);
+        const auto body = geometry::readGeometry(geometryFile(here, how), grid.dim, how.scale, how.meshingTime);
         seeding::Seeding seeded = seeding::seedState(body, grid, materials, how);
         seeded.state.provenance = {{"version", projectVersion()},
                                    {"revision", gitRevision()},

@@ -83,6 +83,13 @@ class Bootstrap(unittest.TestCase):
         self.assertEqual(out, "Installing 1 packages: catch2\n")
         self.assertEqual(len(self.calls()), 2)
 
+    def test_the_audit_needs_more(self):
+        self.install_everything()
+        _, out, _ = self.bootstrap("--audit", "--packages-only")
+        self.assertEqual(out, "Installing 3 packages: clang-14 libclang-rt-14-dev libomp-14-dev\n")
+        self.calls()
+        self.assertEqual(self.bootstrap("--audit", "--packages-only")[:2], (0, ""))
+
     def test_without_rights_prints_list_and_command(self):
         code, _, err = self.bootstrap(USER_ID="1000")
         self.assertEqual(code, 1)

@@ -1,0 +1,289 @@
+"""The wrong inputs of docs/wrongInputs.md: what is wrong, how a copy of the column gets it, which program meets it."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+
+@dataclass
+class Entry:
+    what: str
+    command: str
+    change: Callable | None = None
+    seeded: bool = True
+
+
+def edit(file, old, new):
+    """Replaces the only occurrence of a text."""
+    def change(case):
+        text = (case / file).read_text()
+        assert text.count(old) == 1, f"'{old}' in {file}: {text.count(old)} times"
+        (case / file).write_text(text.replace(old, new))
+    return change
+
+
+def write(file, text):
+    def change(case):
+        (case / file).parent.mkdir(exist_ok=True)
+        (case / file).write_bytes(text if isinstance(text, bytes) else text.encode())
+    return change
+
+
+def append(file, text):
+    return lambda case: (case / file).write_text((case / file).read_text() + text)
+
+
+def remove(file):
+    return lambda case: (case / file).unlink()
+
+
+def state(action):
+    """Edits 0/state.h5 with h5py."""
+    def change(case):
+        with h5py.File(case / "0" / "state.h5", "r+") as file:
+            action(file)
+    return change
+
+
+def both(*changes):
+    return lambda case: [change(case) for change in changes]
+
+
+def put(name, index, value):
+    def action(file):
+        file[name][index] = value
+    return state(action)
+
+
+def attribute(name, value):
+    def action(file):
+        file.attrs[name] = value
+    return state(action)
+
+
+def replaced(name, values):
+    def action(file):
+        del file[name]
+        file[name] = values
+    return state(action)
+
+
+def cut(part):
+    def change(case):
+        file = case / "0" / "state.h5"
+        file.write_bytes(file.read_bytes()[: int(part * file.stat().st_size)])
+    return change
+
+
+def linked(name):
+    def action(file):
+        del file[name]
+        file[name] = h5py.ExternalLink("/etc/hostname", "/")
+    return state(action)
+
+
+def compressed(name):
+    def action(file):
+        values = file[name][()]
+        del file[name]
+        file.create_dataset(name, data=np.zeros_like(values), compression="gzip")
+    return state(action)
+
+
+def seed(what, change):
+    return Entry(what, "seedParticles", change, seeded=False)
+
+
+def solve(what, change):
+    return Entry(what, "mpmSolve", change)
+
+
+GRID, SCHEMES, CONTROL, SEED = "system/gridDict", "system/mpmSchemes", "system/controlDict", "system/seedParticlesDict"
+SPLIT, CHECK = "system/splitParticlesDict", "system/checkIntegrationDict"
+MATERIAL, WALLS, GRAVITY = "constant/materialProperties", "constant/boundaryConditions", "constant/g"
+COLUMN = "geometry/column.geo"
+SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
+          "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n")
+
+GROUPS = [
+    ("Options", [
+        Entry("an option that does not exist", "mpmSolve -fast"),
+        Entry("an option misspelt", "smoothStress -latesTime"),
+        Entry("an option of another program", "seedParticles -threads 2"),
+        Entry("two dashes", "mpmSolve --dry-run"),
+        Entry("a word that is no option", "mpmSolve column"),
+        Entry("an option without its argument", "mpmSolve -threads"),
+        Entry("an option where an argument belongs", "mpmSolve -case -dry-run"),
+        Entry("an option given twice", "mpmSolve -dry-run -dry-run"),
+        Entry("no threads", "mpmSolve -threads 0"),
+        Entry("threads that are no number", "mpmSolve -threads two"),
+        Entry("threads of the environment", "OMP_NUM_THREADS=many mpmSolve"),
+        Entry("a case that is not there", "mpmSolve -case nowhere"),
+        Entry("a case that is a file", "mpmSolve -case system/gridDict"),
+        Entry("a case that is another folder", "seedParticles -case geometry"),
+        Entry("a time that is not stored", "smoothStress -time 7"),
+        Entry("a time that is none", "smoothStress -time now"),
+        Entry("a range that runs backwards", "smoothStress -time 2:1"),
+        Entry("two ways to choose the time", "smoothStress -time 0 -latestTime"),
+        Entry("a target that is the case", "splitParticles -target ."),
+        Entry("a law nobody wrote", "driveLaw -law constant/none -path oedometer"),
+        Entry("a path that is none", "driveLaw -law constant/materialProperties -path biaxial"),
+        Entry("too few options", "driveLaw -law constant/materialProperties"),
+        Entry("a material that is not there", "driveLaw -law constant/materialProperties -material sand -path oedometer"),
+        Entry("more steps than anyone waits for", "driveLaw -law constant/law -path oedometer",
+              write("constant/law", "law linearElastic; E 1e6; nu 0.3; test { steps 1000000000000; }\n")),
+        Entry("nothing to check", "checkIntegration"),
+        Entry("a shape that does not exist", "benchmarkStep -shape cubic"),
+        Entry("a number of particles that is none", "benchmarkStep -particles few"),
+    ]),
+    ("Dictionaries, how they are written", [
+        seed("a missing semicolon", edit(GRID, "dimension       2;", "dimension       2 ")),
+        seed("a brace that is not closed", edit(MATERIAL, "        type        K0;\n    }\n}", "        type        K0;\n    }\n")),
+        seed("a brace too many", append(GRID, "}\n")),
+        seed("a word given twice", append(GRID, "cellSize 0.4;\n")),
+        seed("a word misspelt", edit(GRID, "cellSize  ", "celSize  ")),
+        seed("a word too many", append(GRID, "colour red;\n")),
+        seed("a word that is missing", edit(MATERIAL, "    density         1000; ", "    // ")),
+        seed("a text where a number belongs", edit(GRID, "0.2666666666666667;", "small;")),
+        seed("a decimal comma", edit(GRID, "0.2666666666666667;", "0,2666;")),
+        seed("a number with its unit", edit(GRID, "0.2666666666666667;", "0.2666m;")),
+        seed("a number beyond double precision", edit(MATERIAL, "20e6;", "20e600;")),
+        seed("two numbers where three belong", edit(GRID, "(16 12 0)", "(16 12)")),
+        seed("dimensions of another quantity", edit(MATERIAL, "density         1000;", "density [1 -2 0 0 0 0 0] 1000;")),
+        seed("a macro nobody wrote", edit(MATERIAL, "20e6;", "$stiffness;")),
+        seed("a calculation", edit(MATERIAL, "20e6;", '#calc "2*10e6";')),
+        seed("a condition", append(GRID, "#if 1\n#endif\n")),
+        seed("an include that is missing", append(GRID, '#include "common"\n')),
+        seed("an include outside the case", append(GRID, '#include "../../../etc/passwd"\n')),
+        seed("an include of itself", append(GRID, '#include "gridDict"\n')),
+        seed("a byte that is no text", append(GRID, "\x01\n")),
+        seed("a dictionary that is missing", remove(GRID)),
+        seed("a dictionary that is a folder", both(remove(GRAVITY), lambda case: (case / GRAVITY).mkdir())),
+        Entry("a word misspelt in a dictionary of a dictionary", "mpmSolve", edit(SCHEMES, "threshold ", "treshold ")),
+    ]),
+    ("Grid, materials, seeding", [
+        seed("a dimension nobody lives in", edit(GRID, "dimension       2;", "dimension       4;")),
+        seed("a cell of no size", edit(GRID, "0.2666666666666667;", "0;")),
+        seed("a box that is no whole number of cells", edit(GRID, "(16 12 0)", "(16.1 12 0)")),
+        seed("a box turned inside out", edit(GRID, "(16 12 0)", "(-16 12 0)")),
+        seed("a 2D box with a height in z", edit(GRID, "(16 12 0)", "(16 12 1)")),
+        seed("more nodes than any machine holds", edit(GRID, "0.2666666666666667;", "1e-6;")),
+        seed("a box that is too small for the soil", edit(GRID, "(16 12 0)", "(16 4 0)")),
+        seed("an incompressible material", edit(MATERIAL, "0.42;", "0.5;")),
+        seed("a negative density", edit(MATERIAL, "1000;", "-1000;")),
+        seed("a law misspelt", edit(MATERIAL, "mohrCoulomb;", "mohrColomb;")),
+        seed("a law that does not exist", edit(MATERIAL, "mohrCoulomb;", "vonKarman;")),
+        seed("a friction angle of a right angle", edit(MATERIAL, "frictionAngle   42;", "frictionAngle   90;")),
+        seed("dilation beyond friction", edit(MATERIAL, "dilationAngle   0;", "dilationAngle   50;")),
+        seed("an initial stress that does not exist", edit(MATERIAL, "        type        K0;", "        type        K1;")),
+        seed("a stress of four numbers", edit(MATERIAL, "        type        K0;", "        type uniform; value (1 2 3 4);")),
+        seed("K0 stress with slanted gravity", edit(GRAVITY, "(0 -9.8 0)", "(1 -9.8 0)")),
+        seed("gravity out of the plane", edit(GRAVITY, "(0 -9.8 0)", "(0 -9.8 1)")),
+        seed("a soil above its own surface", edit(MATERIAL, "        type        K0;", "        type K0; surfaceLevel 4;")),
+        seed("no particles in a cell", edit(SEED, "particlesPerCell    2;", "particlesPerCell    0;")),
+        seed("more particles than the machine holds", both(edit(SEED, "particlesPerCell    2;", "particlesPerCell 100;"),
+                                                         edit(GRID, "0.2666666666666667;", "0.0001;"))),
+        seed("jitter on a lattice", append(SEED, "jitter 0.1;\n")),
+        seed("a region that is not in the geometry", edit(SEED, "    soil       ", "    clay       ")),
+        seed("a region of a material that is not there", edit(SEED, "material    soil;", "material    sand;")),
+        Entry("a state that is there already", "seedParticles"),
+        seed("a file where the time folder belongs", write("0", "here\n")),
+    ]),
+    ("Geometry", [
+        seed("a file that is missing", remove(COLUMN)),
+        seed("a file of another kind", edit(SEED, '"geometry/column.geo"', '"system/gridDict"')),
+        seed("two files and no choice", both(write("geometry/other.geo", SQUARE),
+                                           edit(SEED, 'geometry            "geometry/column.geo";', ""))),
+        seed("a mistake in gmsh's language", edit(COLUMN, "width = 4;", "width = four;")),
+        seed("a last line without its end", write(COLUMN, SQUARE + "a = 1;")),
+        seed("no surfaces", write(COLUMN, SQUARE)),
+        seed("a plane geometry for a 3D grid", both(edit(GRID, "dimension       2;", "dimension       3;"),
+                                                   edit(GRID, "(16 12 0)", "(16 12 4)"))),
+        seed("an outline that crosses itself", edit(COLUMN, "Curve Loop(1) = {1, 2, 3, 4};",
+                                                    "Line(5) = {1, 3}; Line(6) = {3, 2}; Line(7) = {2, 4}; Line(8) = {4, 1};\n"
+                                                    "Curve Loop(1) = {5, 6, 7, 8};")),
+        seed("a command that starts a program", append(COLUMN, 'SystemCall "rm -r constant";\n')),
+        seed("a command that writes a file", append(COLUMN, 'Save "column.msh";\n')),
+        seed("text sent to a file", append(COLUMN, 'Printf("x") > "log";\n')),
+        seed("a file outside the case", append(COLUMN, 'Include "../../../etc/passwd";\n')),
+        seed("a file name that is calculated", append(COLUMN, 'Merge StrCat("a", ".geo");\n')),
+        seed("a loop that never ends", both(append(COLUMN, "For i In {0:1e12}\n  a = i;\nEndFor\n"),
+                                          append(SEED, "meshingTime 1;\n"))),
+        seed("a script that is called a mesh", both(write("geometry/a.msh", SQUARE),
+                                                  edit(SEED, "geometry/column.geo", "geometry/a.msh"))),
+        seed("a mesh cut short", both(write("geometry/a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n9 9"),
+                                    edit(SEED, "geometry/column.geo", "geometry/a.msh"))),
+        seed("an open surface", both(write("geometry/a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                           "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"),
+                                   edit(SEED, "geometry/column.geo", "geometry/a.stl"),
+                                   edit(GRID, "dimension       2;", "dimension       3;"),
+                                   edit(GRID, "(16 12 0)", "(16 12 4)"))),
+    ]),
+    ("Walls, schemes, time", [
+        solve("a wall named after no boundary", write(WALLS, "bsae { type roller; }\n")),
+        solve("a wall of no known type", edit(WALLS, "friction;", "frction; ")),
+        solve("friction without its coefficient", edit(WALLS, "    mu              0.6; ", "    // ")),
+        solve("a negative coefficient of friction", edit(WALLS, "0.6;", "-0.6;")),
+        solve("a wall with an edge of its own", edit(WALLS, "(0 -1 0);", "(1 -1 0);")),
+        solve("a shape that does not exist", edit(SCHEMES, "uGIMP;          //", "GIMP;          //")),
+        solve("a stress update misspelt", edit(SCHEMES, "MUSL;           //", "MULS;           //")),
+        solve("a negative rate", edit(SCHEMES, "picRate         2;", "picRate         -2;")),
+        solve("splitting at once", edit(SCHEMES, "threshold   2.5;", "threshold   0.5;")),
+        solve("a time step beyond the stability limit", edit(CONTROL, "1e-3;", "4e-3;")),
+        solve("stress last at this time step", edit(SCHEMES, "MUSL;           //", "USL;           //")),
+        solve("a time step of zero", edit(CONTROL, "1e-3;", "0;")),
+        solve("a yes that is no", edit(CONTROL, "adjustTimeStep  no;", "adjustTimeStep  perhaps;")),
+        solve("an end that is no time", edit(CONTROL, "endTime         2.5;", "endTime         never;")),
+        solve("a way to start that does not exist", edit(CONTROL, "latestTime;     //", "lastTime;     //")),
+        solve("a start that is not stored", both(edit(CONTROL, "latestTime;     //", "startTime;     //"),
+                                               edit(CONTROL, "startTime       0;", "startTime       0.5;"))),
+        solve("another program's dictionary", edit(CONTROL, "application     mpmSolve;", "application     icoFoam;")),
+        solve("states that are never written", edit(CONTROL, "writeInterval   0.25;", "writeInterval   0;")),
+        solve("a particle nobody seeded", edit(CONTROL, "(15 400 900 1700)", "(15 400 900 170000)")),
+        Entry("a mode of splitting that does not exist", "splitParticles -target refined",
+              edit(SPLIT, "fourWay; ", "eightWay; ")),
+        Entry("splitting in place without being told to", "splitParticles"),
+        Entry("steps that are none", "checkIntegration -law", edit(CHECK, "(1 2 4 8 16 32 64 128 256 512)", "(1 2 0)")),
+        Entry("a path without its stress", "checkIntegration -law",
+              edit(CHECK, "startStress (-40e3 -60e3 -48e3 0 0 0);", "")),
+    ]),
+    ("States", [
+        Entry("no state at all", "mpmSolve", seeded=False),
+        solve("an empty file", cut(0)),
+        solve("a file cut in half", cut(0.5)),
+        solve("a text", write("0/state.h5", "particles\n")),
+        solve("a file of another program", lambda case: h5py.File(case / "0" / "state.h5", "w").close()),
+        solve("a folder of that name", both(remove("0/state.h5"), lambda case: (case / "0" / "state.h5").mkdir())),
+        solve("an earlier format", attribute("formatVersion", 1)),
+        solve("a later format", attribute("formatVersion", 1000)),
+        solve("a dimension nobody lives in", attribute("dimension", 7)),
+        solve("an array that is missing", state(lambda file: file.pop("particles/mass"))),
+        solve("an array of another type", replaced("particles/mass", np.ones(1800, np.float32))),
+        solve("an array of another length", replaced("particles/mass", np.ones(1799))),
+        solve("an array of another shape", replaced("particles/mass", np.ones((1800, 2)))),
+        solve("a link to another file", linked("particles/mass")),
+        solve("a compressed array", compressed("particles/mass")),
+        solve("a velocity that is not a number", put("particles/velocity", (7, 0), float("nan"))),
+        solve("a particle without mass", put("particles/mass", 7, 0)),
+        solve("a particle turned inside out", put("particles/deformationGradient", (7, 0, 0), -1)),
+        solve("two particles of one id", put("particles/id", 7, 8)),
+        solve("an id that was never given", put("particles/id", 7, 10**12)),
+        solve("a material that is not in the list", put("particles/material", 7, 3)),
+        solve("a ledger that is infinite", replaced("ledger/gravityWork", float("inf"))),
+        Entry("the same of another program", "smoothStress", put("particles/volume", 7, -1)),
+        Entry("the same of a third", "splitParticles -target refined", put("particles/length0", (7, 1), 0)),
+    ]),
+    ("Dictionaries that do not fit the state or each other", [
+        solve("other cells than the particles were seeded on", edit(GRID, "0.2666666666666667;", "0.4;")),
+        solve("another dimension", both(edit(GRID, "dimension       2;", "dimension       3;"),
+                                      edit(GRID, "(16 12 0)", "(16 12 4)"))),
+        solve("a material the state is made of and nobody describes", edit(MATERIAL, "\nsoil\n", "\nclay\n")),
+        solve("a grid the particles have left", edit(GRID, "(-12 0 0)", "(2.4 0 0)")),
+        solve("a wall that is not on a node's line", edit(WALLS, "position    0;", "position    0.1;")),
+        solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),
+                                                      (case / "0.0" / "state.h5").write_bytes(b"x"))),
+    ]),
+]

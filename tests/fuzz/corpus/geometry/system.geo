@@ -1,0 +1,3 @@
+SystemCall "touch broken";
+Printf("x") > "broken";
+Save "broken.msh";
