@@ -78,6 +78,15 @@ class Run:
             raise SystemExit(f"{path}: {count} entries {word}, one is needed")
         path.write_text(text)
 
+    def edit(self, change, time=-1):
+        """Lets change(particles) alter the arrays of a stored state in place (default: the last), before a run."""
+        with h5py.File(self.state(time).path, "r+") as file:
+            particles = {name: item[()] for name, item in file["particles"].items()}
+            change(particles)
+            for name, values in particles.items():
+                file["particles"][name][...] = values
+        return self
+
     def times(self):
         found = [p.parent.name for p in self.folder.glob("*/state.h5")]
         return sorted(found, key=float)
@@ -128,6 +137,13 @@ class HardCase:
         if run.exit != exits:
             print(run.log)
             self.check(f"exit code of mpmSolve ({variant})", run.exit, "==", exits)
+        return run
+
+    def require(self, run, exits=0):
+        """Makes the exit code of the run's last utility a criterion, for runs not made by solve()."""
+        if run.exit != exits:
+            print(run.log)
+        self.check(f"exit code ({run.folder.name})", run.exit, "==", exits)
         return run
 
     def check(self, what, measured, relation, bound, unit=""):
