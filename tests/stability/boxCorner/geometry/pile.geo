@@ -1,4 +1,5 @@
-// A column between the walls of a box.
+// A column between the walls of a box, as wide as they are apart or less.
 SetFactory("OpenCASCADE");
-Rectangle(1) = {-0.75, 0, 0, 1.5, 2};
+width = 1;
+Rectangle(1) = {-width / 2, 0, 0, width, 2};
 Physical Surface("soil") = {1};
