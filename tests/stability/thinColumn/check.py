@@ -1,6 +1,8 @@
 """A column 1000 cells high and one cell wide, dropped on its base while it swings.
-Hard: every cell of a one cell wide domain touches both side walls, so any error of the walls, of nodes behind them or of the tiles shows in every particle; material falls through 20 cells.
-Pass: position, velocity and both stresses are those of an independent one-dimensional MPM to 1e-10 of their largest values; nothing moves sideways."""
+Hard: every cell of a one cell wide domain touches both side walls, so any error of the walls, of nodes behind them
+or of the tiles shows in every particle; material falls through 20 cells.
+Pass: position, velocity and both stresses are those of an independent one-dimensional MPM to 1e-10 of their largest
+values; nothing moves sideways."""
 import numpy as np
 from hardCase import HardCase
 
@@ -62,6 +64,7 @@ run = case.seed("column")
 swing(run)
 case.require(run.utility("mpmSolve"))
 case.common(run)
+case.nothing_gained(run)
 first, last = run.state(0), run.state()
 x0 = first.by_id("position")
 y, v, along, across = one_dimensional(x0[:, 1], first.by_id("velocity")[:, 1], first.by_id("length0")[:, 1],
