@@ -73,7 +73,8 @@ run.edit(lambda p: case.check("the nearest balanced stress differs from K0 by, a
 watch(run)
 for update in ("MUSL", "USF", "USL"):
     run = case.seed(f"disturbed-{update}", ("system/mpmSchemes", "stressUpdate", update),
-                    ("system/controlDict", "deltaT", DT if update != "USL" else DT / 2), *times).edit(disturb)
+                    ("system/controlDict", "deltaT", DT if update != "USL" else DT / 2),
+                    *[("system/controlDict", word, 5_000 * DT) for word in ("endTime", "writeInterval")]).edit(disturb)
     case.require(run.utility("mpmSolve"))
     case.common(run)
     case.nothing_gained(run)
