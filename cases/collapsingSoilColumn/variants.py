@@ -24,7 +24,7 @@ VARIANTS = {
     "2 threads": ({}, 2),
     "3 threads": ({}, 3),
     "USF": (schemes(stressUpdate="USF"), 1),
-    "USL, deltaT 0.75 ms": ({**schemes(stressUpdate="USL"), "system/controlDict": {"deltaT": "7.5e-4"}}, 1),
+    "USL, deltaT 0.4 ms": ({**schemes(stressUpdate="USL"), "system/controlDict": {"deltaT": "4e-4"}}, 1),
     "cpGIMP": (schemes(shape="cpGIMP"), 1),
     "quadraticBSpline": (schemes(shape="quadraticBSpline"), 1),
     "linear": (schemes(shape="linear"), 1),
@@ -33,7 +33,8 @@ VARIANTS = {
     "no splitting, picRate 0": (schemes(splitting=None, picRate="0"), 1),
     "h = 0.4 m": (coarse, 1),
     "h = 0.4 m, USF": ({**coarse, **schemes(stressUpdate="USF")}, 1),
-    "h = 0.4 m, USL": ({**coarse, **schemes(stressUpdate="USL")}, 1),
+    "h = 0.4 m, USL, deltaT 0.625 ms": ({**coarse, **schemes(stressUpdate="USL"),
+                                         "system/controlDict": {"deltaT": "6.25e-4"}}, 1),
 }
 
 

@@ -85,9 +85,15 @@ class NaiveNodes
                 node.strainVelocity[a] = node.mass > 0 ? node.momentum[a] / node.mass : 0;
         for (const auto& wall : walls)
             forEachBehind(wall, [&](Node<dim>& node) {
+                auto& w = node.strainVelocity;
+                const bool touches = node.velocity[wall.axis] == 0;
+                const bool sticks = touches && wall.type != nodal::WallType::roller &&
+                                    (wall.type == nodal::WallType::fixed || wall.mu > 0);
+                if (touches || wall.side * w[wall.axis] > 0)
+                    w[wall.axis] = 0;
                 for (int a = 0; a < dim; ++a)
-                    if (node.velocity[a] == 0 || (a == wall.axis && wall.side * node.strainVelocity[a] > 0))
-                        node.strainVelocity[a] = 0;
+                    if (sticks && node.velocity[a] == 0)
+                        w[a] = 0;
             });
     }
 

@@ -6,6 +6,7 @@
 /// hat(d) = max(0, 1 - |d|), T(d) = int_d^1 hat. G in cells: divide by h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mpm::benchmark
 {
@@ -43,8 +44,9 @@ inline double hatTail(double d)
 template <Kind kind>
 inline NaiveWeight naiveWeight(double d, double l, bool left)
 {
+    constexpr double least = std::numeric_limits<double>::epsilon(); // no slope towards a node without mass
     if constexpr (kind == Kind::linear)
-        return {hat(d), left ? -1.0 : 1.0};
+        return {std::clamp(hat(d), least, 1 - least), left ? -1.0 : 1.0};
     const double e = std::abs(d);
     return {(hatTail(e - l) - hatTail(e + l)) / (2 * l), (hat(d + l) - hat(d - l)) / (2 * l)};
 }

@@ -71,12 +71,16 @@ void WallEffect<dim>::rub(NodeRow<dim>& row) const
 template <int dim>
 void WallEffect<dim>::follow(NodeRow<dim>& row) const
 {
+    const bool sticks = wall_.type == WallType::fixed || (wall_.type == WallType::friction && wall_.mu > 0);
     const auto [begin, end] = range(row);
     for (Index i = begin; i < end; ++i)
     {
         Record& r = row.node[i];
-        for (int a = 0; a < dim; ++a)
-            if (r[row.velocity + a] == 0 || (a == wall_.axis && wall_.side * r[row.trial + a] > 0))
+        const bool touches = r[row.velocity + wall_.axis] == 0;
+        if (touches || wall_.side * r[row.trial + wall_.axis] > 0)
+            r[row.trial + wall_.axis] = 0;
+        for (int a = 0; a < dim && touches && sticks; ++a)
+            if (r[row.velocity + a] == 0)
                 r[row.trial + a] = 0;
     }
 }

@@ -32,12 +32,13 @@ class Table:
 
 
 def recomputed_residual(history, budget):
-    """The energy that came in, less what the body holds more than at the start, less what was taken from it. The work of
-    normal wall forces (wallLoss) has no column in the history."""
+    """The energy that came in, less what the body holds more than at the start, less what was taken from it. Impacts on
+    walls, what finite steps make of a rate law, and the staggering of velocities have no column in the history."""
     held = history["kineticEnergy"] + history["strainEnergy"]
     taken = sum(history[name] for name in
                 ("plasticDissipation", "frictionDissipation", "splitMergeLoss", "transferLoss"))
-    return history["gravityWork"] - (held - held[0]) - taken - budget["wallLoss"]
+    came = history["gravityWork"] + budget["finiteStrainWork"] + budget["staggering"]
+    return came - (held - held[0]) - taken - budget["wallLoss"]
 
 
 class Report:

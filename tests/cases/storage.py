@@ -66,7 +66,7 @@ class Storage(ColumnCase):
                     whole = self.fresh(f"{shape}{update}")
                     self.set(whole, "system/mpmSchemes", "shape", shape)
                     self.set(whole, "system/mpmSchemes", "stressUpdate", update)
-                    self.set(whole, "system/controlDict", "deltaT", "5e-4")
+                    self.set(whole, "system/controlDict", "deltaT", "4e-4")
                     again = whole.with_name(f"{shape}{update}Again")
                     shutil.copytree(whole, again)
                     self.run_utility(whole, "mpmSolve", "-threads", "1")
