@@ -86,13 +86,11 @@ class NaiveNodes
         for (const auto& wall : walls)
             forEachBehind(wall, [&](Node<dim>& node) {
                 auto& w = node.strainVelocity;
-                const bool touches = node.velocity[wall.axis] == 0;
-                const bool sticks = touches && wall.type != nodal::WallType::roller &&
-                                    (wall.type == nodal::WallType::fixed || wall.mu > 0);
-                if (touches || wall.side * w[wall.axis] > 0)
-                    w[wall.axis] = 0;
+                const bool sticks = wall.type != nodal::WallType::roller &&
+                                    (wall.type == nodal::WallType::fixed || wall.mu > 0) &&
+                                    std::all_of(node.velocity, node.velocity + dim, [](double v) { return v == 0; });
                 for (int a = 0; a < dim; ++a)
-                    if (sticks && node.velocity[a] == 0)
+                    if (sticks || (a == wall.axis && (node.velocity[a] == 0 || wall.side * w[a] > 0)))
                         w[a] = 0;
             });
     }

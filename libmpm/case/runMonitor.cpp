@@ -49,9 +49,10 @@ void RunMonitor::remember(state::State& state)
     good_ = std::make_unique<state::State>(state);
 }
 
-std::string RunMonitor::look(const state::State& state, const stepping::StepReport& report, double waveSpeed)
+std::string RunMonitor::look(const state::State& state, const stepping::StepReport& report,
+                             const stepping::StabilityLimit& limit)
 {
-    const auto finding = monitor_->look(state, report, waveSpeed);
+    const auto finding = monitor_->look(state, report, limit);
     if (finding.text.empty() || rule_.action != MonitorAction::warn || finding.fatal)
         return finding.text;
     if (warnings_++ == 0)
@@ -81,12 +82,12 @@ std::string RunMonitor::describe() const
     return fmt::format("{} at {:g} % of energy from nowhere", action, 100 * rule_.energyTolerance);
 }
 
-std::vector<std::pair<std::string, std::string>> RunMonitor::summary(const stepping::StabilityLimit& limit) const
+std::vector<std::pair<std::string, std::string>> RunMonitor::summary() const
 {
     const auto& e = monitor_->extremes();
     std::vector<std::pair<std::string, std::string>> lines;
     lines.emplace_back("monitor",
-                       fmt::format("det F >= {:.3g}, (c_p + 2 |v|) deltaT/h <= {:.3f}, nodal mass >= {:.2g} of "
+                       fmt::format("det F >= {:.3g}, (c_p + |v|) deltaT/h <= {:.3f}, nodal mass >= {:.2g} of "
                                    "a full node, yield <= {:.1g}, energy from nowhere <= {:.2g} %",
                                    e.jacobian, e.courant, e.nodalMass, std::max(0.0, e.yieldViolation),
                                    100 * e.energyFromNowhere));
@@ -96,9 +97,11 @@ std::vector<std::pair<std::string, std::string>> RunMonitor::summary(const stepp
                                        wentBack_, 1 / smallestFactor_));
     if (warnings_ > 0)
         lines.emplace_back("note", fmt::format("the monitor found fault with {} steps", warnings_));
-    if (e.courant > 1.000001 * limit.courant)
-        lines.emplace_back("note", fmt::format("(c_p + 2 |v|) deltaT/h reached {:.3f}, over the stability limit {:.2f}",
-                                               e.courant, limit.courant));
+    if (e.limitUse > 1.000001)
+        lines.emplace_back("note",
+                           fmt::format("deltaT came to {:.2f} of the stability limit, which falls as soil loosens, "
+                                       "speeds up or (USL, linear) leaves nodes",
+                                       e.limitUse));
     return lines;
 }
 } // namespace mpm::cases

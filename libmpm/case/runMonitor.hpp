@@ -26,14 +26,15 @@ class RunMonitor
     /// Before a step.
     void remember(state::State& state);
     /// After a step; empty: go on. `warn` prints a finding here, once each.
-    std::string look(const state::State& state, const stepping::StepReport& report, double waveSpeed);
+    std::string look(const state::State& state, const stepping::StepReport& report,
+                     const stepping::StabilityLimit& limit);
     /// adapt: puts the last copy back with half the step factor. False if it has come to 1/64, or was not asked for.
     bool goBack(state::State& state);
 
     /// "stop at 25 % of energy from nowhere".
     std::string describe() const;
-    /// Lines of the summary: extremes; how often the run went back or warned; a Courant number over the limit.
-    std::vector<std::pair<std::string, std::string>> summary(const stepping::StabilityLimit& limit) const;
+    /// Lines of the summary: extremes; how often the run went back or warned; steps over the stability limit.
+    std::vector<std::pair<std::string, std::string>> summary() const;
 
   private:
     static constexpr Index stride = 50, recovery = 200;

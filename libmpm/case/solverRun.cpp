@@ -43,11 +43,10 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
         throw InputError(
             control.where("deltaT"),
             fmt::format(
-                "deltaT: found {:g} s, (c_p + 2 |v|) deltaT/h = {:.3f}; allowed: at most {:.4g} s ({:.3g}) for {} "
-                "with {} at c_p = {:.1f} m/s, |v| = {:.3g} m/s and h = {:g} m, or adjustTimeStep yes",
-                runTime_->deltaT(), limit_.courant * runTime_->deltaT() / limit_.deltaT, limit_.deltaT, limit_.courant,
-                stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape, limit_.waveSpeed, limit_.speed,
-                state_.grid.h));
+                "deltaT: found {:g} s; allowed: at most {:.4g} s for {} with {} at c_p = {:.1f} m/s, |v| = {:.3g} m/s "
+                "and h = {:g} m, or adjustTimeStep yes",
+                runTime_->deltaT(), limit_.deltaT, stepping::stressUpdateName(scene_.scene.stressUpdate), scene_.shape,
+                limit_.waveSpeed, limit_.speed, state_.grid.h));
     const auto strains = StrainRecorder::recall(state_);
     if (!record.empty())
     {
@@ -175,7 +174,8 @@ std::string SolverRun::tryStep()
     {
         return error.what();
     }
-    const auto found = monitor_->look(state_, stepper_->report(), restWaveSpeed_ * std::sqrt(state_.largestJacobian));
+    const auto limit = stepping::movedLimit(limit_, restWaveSpeed_, state_, stepper_->report().largestSpeed);
+    const auto found = monitor_->look(state_, stepper_->report(), limit);
     return found.empty() ? found : fmt::format("step {} at time {:.9g} s: {}", state_.step, state_.time, found);
 }
 
@@ -209,8 +209,8 @@ void SolverRun::giveUp(const std::string& why)
     {
         alsoFailed = fmt::format("\n    and {}", error.what());
     }
-    throw StepError(fmt::format("{}{}\n    the last stored time is {}; nothing after it was kept", why, alsoFailed,
-                                lastStored_));
+    throw StepError(
+        fmt::format("{}{}\n    the last stored time is {}; nothing after it was kept", why, alsoFailed, lastStored_));
 }
 
 void SolverRun::step()

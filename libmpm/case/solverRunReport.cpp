@@ -92,8 +92,10 @@ void SolverRun::banner() const
     else
         line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
-    line("stability", fmt::format("deltaT <= {:.4g} s ((c_p + 2 |v|) deltaT/h <= {:.2f}); now {:.3f}", limit_.deltaT,
-                                  limit_.courant, limit_.courant * stepSize() / limit_.deltaT));
+    line("stability",
+         fmt::format("deltaT <= {:.4g} s for {} with {}; now {:.3f} of it, (c_p + |v|) deltaT/h = {:.3f}",
+                     limit_.deltaT, stepping::stressUpdateName(s.stressUpdate), scene_.shape,
+                     stepSize() / limit_.deltaT, (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
     line("monitor", monitor_->describe());
     line("threads", fmt::format("{}", options_.threadCount()));
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
@@ -110,9 +112,10 @@ void SolverRun::warnings() const
         line("note", fmt::format("{} particle domains are held at {} cells; split them earlier or seed finer",
                                  stepper_->report().cappedDomains, scene_.shape == "cpGIMP" ? "two" : "one"));
     if (const auto [count, longest] = longParticles(state_); count > 0)
-        line("note", fmt::format("{} particles are longer than a cell (the longest {:.1f} cells): the body may tear between "
-                                 "them; split them (mpmSchemes splitting) or seed finer",
-                                 count, longest));
+        line("note",
+             fmt::format("{} particles are longer than a cell (the longest {:.1f} cells): the body may tear between "
+                         "them; split them (mpmSchemes splitting) or seed finer",
+                         count, longest));
     if (ledger.splitsPutOff > 0)
         line("note", fmt::format("{} particles wait at a wall for their split", ledger.splitsPutOff));
     if (ledger.splitsCapped > 0)
@@ -168,7 +171,7 @@ void SolverRun::summary()
         line("time step", fmt::format("{:.4g} to {:.4g} s, mean {:.4g} s; adapting it took {:.2g} % of the run",
                                       smallestStep_, largestStep_, (state_.time - firstTime_) / double(steps),
                                       100 * adaptSeconds_ / profile_.elapsed()));
-    for (const auto& [what, text] : monitor_->summary(limit_))
+    for (const auto& [what, text] : monitor_->summary())
         line(what, text);
     warnings();
     line("last time", lastStored_);

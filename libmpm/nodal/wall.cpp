@@ -76,12 +76,13 @@ void WallEffect<dim>::follow(NodeRow<dim>& row) const
     for (Index i = begin; i < end; ++i)
     {
         Record& r = row.node[i];
-        const bool touches = r[row.velocity + wall_.axis] == 0;
-        if (touches || wall_.side * r[row.trial + wall_.axis] > 0)
+        bool rests = true;
+        for (int a = 0; a < dim; ++a)
+            rests = rests && r[row.velocity + a] == 0;
+        if (r[row.velocity + wall_.axis] == 0 || wall_.side * r[row.trial + wall_.axis] > 0)
             r[row.trial + wall_.axis] = 0;
-        for (int a = 0; a < dim && touches && sticks; ++a)
-            if (r[row.velocity + a] == 0)
-                r[row.trial + a] = 0;
+        for (int a = 0; a < dim && sticks && rests; ++a)
+            r[row.trial + a] = 0;
     }
 }
 

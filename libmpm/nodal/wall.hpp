@@ -33,10 +33,10 @@ class WallEffect
     /// Then, for all walls: friction on what is left, which no longer moves into any wall. So the order of walls in the
     /// dictionary does not matter.
     void rub(NodeRow<dim>& row) const;
-    /// For velocities w that strains are taken from, in the lanes `trial`, with v* in the lanes `velocity`: what the walls
-    /// have brought to rest in v* rests in w, and nothing moves into the wall. Contact and stick are decided once a step:
-    /// if w decided anew, a wall that pushes would let go whenever w points away from it, strains would not follow v*,
-    /// and a body that bounces off, or presses on the wall at rest, would gain energy in every swing.
+    /// For velocities w that strains are taken from, in the lanes `trial`, with v* in the lanes `velocity`: what the
+    /// walls have brought to rest in v* rests in w, and nothing moves into the wall. Contact and stick are decided once
+    /// a step: if w decided anew, a wall that pushes would let go whenever w points away from it, strains would not
+    /// follow v*, and a body that bounces off, or presses on the wall at rest, would gain energy in every swing.
     void follow(NodeRow<dim>& row) const;
     const Wall& wall() const { return wall_; }
 

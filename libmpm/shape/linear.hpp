@@ -15,8 +15,8 @@ struct Linear
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;
     using Narrow = Linear;
-    /// Least weight of a node. A particle on a node plane in every bit would give the next node no mass, so no velocity,
-    /// but have a gradient towards it: (0 - v)/h would be strain.
+    /// Least weight of a node. A particle on a node plane in every bit would give the next node no mass, so no
+    /// velocity, but have a gradient towards it: (0 - v)/h would be strain.
     static constexpr double least = 0x1p-52;
 
     static void evaluate(const double* x, const double*, double origin, double invH, AxisWeights<2>& w)

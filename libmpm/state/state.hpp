@@ -24,7 +24,7 @@ struct Ledger
         0; ///< work of the last step's stress that the next step finds again (stepping/energyBudget.hpp)
     double staggering = 0;        ///< energy of velocities that live half a step off the stresses, now
     double initialStaggering = 0; ///< the same at the first step
-    double finiteStrainWork = 0;        ///< elastic energy that finite steps of a rate law make (energyBudget.hpp)
+    double finiteStrainWork = 0;  ///< elastic energy that finite steps of a rate law make (energyBudget.hpp)
     double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2
     double apexVolume = 0;        ///< volume dropped by apex returns beyond the flow rule [m^3]

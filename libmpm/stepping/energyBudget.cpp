@@ -53,9 +53,10 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork + (l.staggering - l.initialStaggering) -
-           (l.kineticEnergy - l.initialKineticEnergy) - (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation -
-           l.frictionDissipation - l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork +
+           (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
+           (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
+           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
 }
 
 const std::vector<std::string>& historyColumns()

@@ -7,16 +7,17 @@
 ///     dampingDissipation   - sum J . (v_i + v*)/2, J the impulse of damping (nodal/damping.hpp)
 ///     wallLoss             sum m (v_i - v*)^2/2 where walls hold nodes: impact. Other forces on such nodes work on v*
 ///     transferLoss         (change of grid KE) - (change of particle KE), and the work of stress on what projections
-///                          change in the velocities it meets (ExplicitStepper::bookStressWork): v_i and v* in the forces,
-///                          w in the strains
+///                          change in the velocities it meets (ExplicitStepper::bookStressWork): v_i and v* in the
+///                          forces, w in the strains
 ///     splitMergeLoss       energy lost by splitting
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
-///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy density,
+///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
+///     density,
 ///                          s the stress before a step, s' the same turned, S after it, V and V' the volumes,
 ///                          sum (u + u')/2 (V' - V) + (V' - V) (s' - S) : dEps/4 + V (s' - s) : dEps/2
 ///     staggering           energy that velocities lack because they live half a step off the stresses, a function of
-///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A leapfrog
-///                          keeps kinetic + strain energy + staggering, not their sum without it
+///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
+///                          leapfrog keeps kinetic + strain energy + staggering, not their sum without it
 ///     residual             gravityWork + tractionWork + bodyForceWork + finiteStrainWork + change of staggering
 ///                          - change of kineticEnergy - change of strainEnergy - all losses
 /// Losses are positive when energy left the body. Leaving any entry out makes the residual grow by it. What remains is

@@ -379,10 +379,11 @@ void ExplicitStepper<dim, Shape>::failOutside() const
         if (!std::isfinite(vv))
             fail(i, "has no finite velocity any more: a smaller deltaT is needed");
         if (!box.contains(x))
-            throw OutsideGrid(fmt::format("step {} at time {:.9g} s: particle {} lies at ({}), outside the grid {}, and "
-                                          "moves at {:.3g} m/s: if that is as it should be, enlarge min and max in "
-                                          "system/gridDict",
-                                          state_.step, state_.time, p.id[std::size_t(i)], place, range, std::sqrt(vv)));
+            throw OutsideGrid(
+                fmt::format("step {} at time {:.9g} s: particle {} lies at ({}), outside the grid {}, and "
+                            "moves at {:.3g} m/s: if that is as it should be, enlarge min and max in "
+                            "system/gridDict",
+                            state_.step, state_.time, p.id[std::size_t(i)], place, range, std::sqrt(vv)));
     }
     throw StepError("a particle just sorted lies outside the nodes its key stands for"); // would be our own mistake
 }

@@ -1,5 +1,5 @@
-// What ExplicitStepper does to one chunk between its velocity gradient and its stress: deformation, the law, and the sums
-// of the energy budget (energyBudget.hpp).
+// What ExplicitStepper does to one chunk between its velocity gradient and its stress: deformation, the law, and the
+// sums of the energy budget (energyBudget.hpp).
 #pragma once
 #include "stepping/explicitStepper.hpp"
 

@@ -31,10 +31,11 @@ Monitor::Monitor(const state::State& state, const Scene& scene, const MonitorRul
     extremes_.nodalMass = std::numeric_limits<double>::infinity();
 }
 
-Finding Monitor::look(const state::State& state, const StepReport& report, double waveSpeed)
+Finding Monitor::look(const state::State& state, const StepReport& report, const StabilityLimit& limit)
 {
     extremes_.jacobian = std::min(extremes_.jacobian, report.smallestJacobian);
-    extremes_.courant = std::max(extremes_.courant, (waveSpeed + 2 * report.largestSpeed) * state.deltaT / state.grid.h);
+    extremes_.courant = std::max(extremes_.courant, (limit.waveSpeed + limit.speed) * state.deltaT / state.grid.h);
+    extremes_.limitUse = std::max(extremes_.limitUse, state.deltaT / limit.deltaT);
     extremes_.nodalMass = std::min(extremes_.nodalMass, report.lightestNode / fullNode_);
     extremes_.yieldViolation = std::max(extremes_.yieldViolation, report.maxYieldViolation);
     if (auto finding = energy(state.ledger, report); !finding.text.empty())
@@ -49,13 +50,12 @@ Finding Monitor::look(const state::State& state, const StepReport& report, doubl
 Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
     const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork;
-    const double dissipated =
-        l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.wallLoss + l.splitMergeLoss;
+    const double dissipated = l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.splitMergeLoss;
     const double start = l.initialKineticEnergy + l.initialStrainEnergy;
     const double used = l.kineticEnergy + report.strainEnergy + dissipated;
     const double nowhere = used - start - work;
     const double known = start + std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) +
-                         std::abs(dissipated) + std::max(0.0, l.transferLoss);
+                         std::abs(dissipated) + std::max(0.0, l.transferLoss + l.wallLoss);
     if (!std::isfinite(nowhere))
         return {"energy is no longer a finite number: a smaller deltaT is needed", true};
     if (known > 0)

@@ -2,12 +2,13 @@
 /// Watches a run for what physics does not explain. Looks at sums the step makes anyway, after every step, so that a
 /// wrong run is found within a few steps and no state is written after it.
 ///
-///     energy      used = K + U + plastic + friction + damping + walls + splitting, K kinetic and U strain energy now;
-///                 given = K + U at the start + work of gravity, loads, body forces + finiteStrainWork (energyBudget.hpp).
-///                 used - given is energy that came from nowhere. Allowed: energyTolerance times all energy that was
-///                 there, supplied or dissipated. What is lost in transfer and what time integration holds back for
-///                 half a step (staggering) is left out of `used`, so that an unstable step and a transfer that makes
-///                 energy are both seen: the budget's residual would close over either.
+///     energy      used = K + U + plastic + friction + damping + splitting, K kinetic and U strain energy now;
+///                 given = K + U at the start + work of gravity, loads, body forces + finiteStrainWork
+///                 (energyBudget.hpp). used - given is energy that came from nowhere. Allowed: energyTolerance times
+///                 all energy that was there, supplied or dissipated. What is lost in transfer and impact (each takes
+///                 what the other gives back) and what time integration holds back for half a step (staggering) is left
+///                 out of `used`, so that an unstable step and a transfer that makes energy are both seen: the residual
+///                 would close over either.
 ///     balance     |momentum - initial - impulses of walls, gravity, loads, damping| <= 1e-8 of their sizes, except
 ///     with
 ///                 prescribed body forces: anything else is a mistake of ours.
@@ -28,6 +29,7 @@
 ///     }
 /// Verified in tests/unit/monitor.cpp and by tests/stability/randomScenes.
 #include "stepping/stepper.hpp"
+#include "stepping/timeStep.hpp"
 
 #include <string>
 
@@ -50,7 +52,8 @@ struct MonitorRule
 struct Extremes
 {
     double jacobian = 1;          ///< smallest det F
-    double courant = 0;           ///< largest (c_p + 2 |v|) dt/h
+    double courant = 0;           ///< largest (c_p + |v|) dt/h
+    double limitUse = 0;          ///< largest share of the stability limit of its moment
     double nodalMass = 0;         ///< smallest nodal mass over that of a full node
     double yieldViolation = 0;    ///< largest f/max(|sigma|, strength)
     double energyFromNowhere = 0; ///< largest share, as compared with energyTolerance
@@ -68,8 +71,8 @@ class Monitor
   public:
     Monitor(const state::State& state, const Scene& scene, const MonitorRule& rule);
 
-    /// After a step. waveSpeed [m/s] is for the Courant number.
-    Finding look(const state::State& state, const StepReport& report, double waveSpeed);
+    /// After a step; `limit` is that of the state as it is now.
+    Finding look(const state::State& state, const StepReport& report, const StabilityLimit& limit);
 
     const Extremes& extremes() const { return extremes_; }
 

@@ -124,8 +124,9 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     }
 }
 
-/// Velocities w that strains are taken from: the projected v_i (USF), or the second projection sum m_p v_p(new) N_ip / m_i
-/// (MUSL), held where walls hold v*. They go to lanes 1 + dim; lanes 1.. keep v*, in USF that of the stress at hand.
+/// Velocities w that strains are taken from: the projected v_i (USF), or the second projection sum m_p v_p(new) N_ip /
+/// m_i (MUSL), held where walls hold v*. They go to lanes 1 + dim; lanes 1.. keep v*, in USF that of the stress at
+/// hand.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {

@@ -8,8 +8,11 @@ namespace mpm::stepping
 double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double smallestNodalMassFraction)
 {
     if (update == StressUpdate::USL)
-        return ignoresMass ? 0.36 : std::min(0.36, 1.2 * std::sqrt(smallestNodalMassFraction));
-    return !ignoresMass ? 0.85 : dim == 2 ? 1.4 : 1.2;
+    {
+        const double full = dim == 2 ? 0.36 : 0.32;
+        return ignoresMass ? full : std::min(full, 1.2 * std::sqrt(smallestNodalMassFraction));
+    }
+    return !ignoresMass ? 0.85 : dim == 2 ? 1.2 : 1.0;
 }
 
 double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials)
@@ -34,6 +37,7 @@ StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const
     StabilityLimit limit;
     limit.courant = criticalCourant(state.particles.dim, ignoresMass, scene.stressUpdate,
                                     limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
+    limit.hats = !ignoresMass;
     return movedLimit(limit, fastestWave(state, scene.materials), state, stepper.largestSpeed());
 }
 
@@ -41,7 +45,8 @@ StabilityLimit movedLimit(StabilityLimit limit, double restWaveSpeed, const stat
 {
     limit.waveSpeed = restWaveSpeed * std::sqrt(state.largestJacobian);
     limit.speed = speed;
-    limit.deltaT = limit.courant * state.grid.h / (limit.waveSpeed + 2 * limit.speed);
+    const double reach = limit.waveSpeed + 3 * limit.speed;
+    limit.deltaT = limit.courant * state.grid.h / reach * (limit.hats ? limit.waveSpeed / reach : 1);
     return limit;
 }
 

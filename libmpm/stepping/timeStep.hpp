@@ -1,26 +1,29 @@
 #pragma once
 /// How large a time step may be.
 ///
-/// Stability (METHOD, Stability limit): (c_p + 2 |v|) dt/h must stay under a bound of the scheme; c_p = sqrt(M/rho) is
-/// the largest P-wave speed, |v| the largest particle speed, h the cell size. With |v| particles cannot pass the reach
-/// of a wave in one step, which impacts beyond the wave speed need. Bounds of c_p dt/h, for 2D and 3D:
+/// Stability (METHOD, Stability limit): dt <= C h/(c_p + 3 |v|), for hat functions C h c_p/(c_p + 3 |v|)^2; c_p =
+/// sqrt(M/rho) is the largest P-wave speed, |v| the largest particle speed, h the cell size. Bounds C, for 2D and 3D:
 ///                    linear                        GIMP, splines
-///     USL            min(0.36, 1.2 sqrt(m_i/m))    0.36
-///     USF, MUSL      0.85                          1.4, in 3D 1.2
+///     USL            min(C, 1.2 sqrt(m_i/m))       0.36, in 3D 0.32
+///     USF, MUSL      0.85                          1.2, in 3D 1.0
 /// m_i/m is the smallest nodal mass over that of a full node: USL with hat functions loses stability as a node empties.
 ///
 /// They lie under the smallest critical values of free elastic blocks over positions of the particles in their cells,
-/// lattices and disordered ones, one particle a cell and many, Poisson's ratio 0 to 0.499 (spectral radius of the step
-/// itself by power iteration, tests/verification/stabilityLimit.cpp). Bars in one dimension bear more: 0.65 to 0.75
-/// with USL, 1.41 to 2.3 with USF and MUSL; blocks near incompressibility bear least, as shear and pressure modes share
-/// nodes.
+/// lattices and disordered ones, blocks of a cell and of many, one particle a cell and many, Poisson's ratio 0 to 0.499
+/// (spectral radius of the step itself by power iteration, tests/verification/stabilityLimit.cpp). Bars in one
+/// dimension bear more: 0.65 to 0.75 with USL, 1.41 to 2.3 with USF and MUSL; blocks near incompressibility bear least,
+/// as shear and pressure modes share nodes.
+///
+/// The linearised step knows no |v|. Impacts do: bodies close in at up to 2 |v|, and every cell face a particle crosses
+/// is a jump of nodal forces, least with GIMP and splines, most with hat functions. The factors are those with which
+/// random scenes up to twice the wave speed end within their energy budget (tests/stability/randomScenes).
 #include "stepping/stepper.hpp"
 
 #include <string>
 
 namespace mpm::stepping
 {
-/// Bound of (c_p + 2 |v|) dt/h [-]. ignoresMass: the shape keeps its bound as nodes empty (all but hat functions).
+/// The bound C [-]. ignoresMass: the shape keeps its bound as nodes empty (all but hat functions).
 double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double smallestNodalMassFraction);
 
 /// Fastest P wave of the materials in use [m/s].
@@ -28,10 +31,14 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 struct StabilityLimit
 {
-    double courant = 0;   ///< bound of (c_p + 2 |v|) dt/h [-]
+    double courant = 0;   ///< C [-]
+    bool hats = false;    ///< hat functions: the second factor in |v|
     double waveSpeed = 0; ///< c_p [m/s]
     double speed = 0;     ///< |v| [m/s]
     double deltaT = 0;    ///< bound of dt [s]
+
+    /// What is to stay under C at a time step: (c_p + 3 |v|) dt/h, for hat functions times (c_p + 3 |v|)/c_p.
+    double use(double dt) const { return courant * dt / deltaT; }
 };
 
 /// Does the bound change as particles move? (USL with hat functions.)

@@ -181,13 +181,16 @@ class HardCase:
             self.check("energy residual" + tag, np.abs(history["residual"]).max() / supplied, "<=", energy)
 
     def nothing_gained(self, run, most=0.02):
-        """The residual closes over what transfers between particles and grid make of nothing; this does not: their loss may
-        not become a gain of more than `most` of the energy that was there or supplied."""
+        """The residual closes over what transfers between particles and grid make of nothing; this does not: their loss,
+        with that of impacts on walls (each takes what the other gives back), may not become a gain of more than `most` of
+        the energy that was there or supplied."""
         ledger, history = run.state(-1).ledger, run.series()
         supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork"))
         supplied += np.abs(history["gravityWork"]).max()
         if supplied > 0:
-            self.check(f"energy gained in transfer ({run.folder.name})", -history["transferLoss"].min() / supplied, "<=", most)
+            budget = run.series("energyBudget")
+            lost = budget["transferLoss"] + budget["wallLoss"]
+            self.check(f"energy gained in transfer ({run.folder.name})", -lost.min() / supplied, "<=", most)
 
     def finish(self):
         passed = bool(self.checks) and all(c["passed"] for c in self.checks)

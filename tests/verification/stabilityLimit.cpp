@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <random>
+#include <tuple>
 
 using namespace mpm;
 using stepping::StressUpdate;
@@ -108,4 +109,126 @@ TEST_CASE("critical Courant numbers of the step and the solver's bounds")
             CHECK(above > 1.05);
             CHECK(bound <= known + 0.005);
         }
+}
+
+namespace
+{
+/// A free block of the step's own dimension, its particles anywhere in their cells, moved off a lattice by up to
+/// `disorder` of their spacing.
+struct FreeBlock
+{
+    int dim = 2;
+    std::string shape;
+    StressUpdate update = StressUpdate::MUSL;
+    double poisson = 0.3;
+    Index perCell = 2;
+    double disorder = 0;
+    unsigned seed = 1;
+};
+
+/// Growth per step of the free motion of the linearised step.
+double growth(const FreeBlock& block, double courant)
+{
+    const int dim = block.dim;
+    const Index N = dim == 2 ? 4 : 2;
+    std::mt19937 random(block.seed);
+    std::uniform_real_distribution<double> anywhere(0, 1), speed(-1e-9, 1e-9), moved(-block.disorder, block.disorder);
+    const double spacing = h / double(block.perCell);
+    const Index n = N * block.perCell, flat = dim == 3 ? n : 1;
+    auto s = scenes::seedBlock(
+        {.dim = dim,
+         .corner = {(2 + anywhere(random)) * h, (2 + anywhere(random)) * h, (2 + anywhere(random)) * h},
+         .n = {n, n, flat},
+         .spacing = spacing,
+         .h = h,
+         .density = density,
+         .cells = {N + 6, N + 6, dim == 3 ? N + 6 : 1}});
+    stepping::Scene scene;
+    scene.materials = {scenes::elastic(modulus, block.poisson, density)};
+    scene.stressUpdate = block.update;
+    scene.sortInterval = 1 << 30;
+    auto& p = s.particles;
+    for (Index i = 0; i < p.size(); ++i)
+        for (int a = 0; a < dim; ++a)
+        {
+            p.x[a][std::size_t(i)] += moved(random) * spacing;
+            p.v[a][std::size_t(i)] = speed(random);
+        }
+    auto stepper = cases::makeStepper(block.shape, s, scene);
+    const auto rest = p;
+    const double wave = scene.materials[0].law->waveModulus(), dt = courant * h / std::sqrt(wave / density);
+    const auto size = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        {
+            for (int a = 0; a < dim; ++a)
+                sum += density * p.v[a][i] * p.v[a][i];
+            for (int k = 0; k < stressComponents(dim); ++k)
+                sum += p.stress[k][i] * p.stress[k][i] / wave;
+        }
+        return std::sqrt(sum);
+    };
+    const double start = size();
+    double grown = 0;
+    const int steps = 500, counted = 200;
+    for (int k = 0; k < steps; ++k)
+    {
+        stepper->step(dt);
+        p.x = rest.x;
+        p.F = rest.F;
+        p.volume = rest.volume;
+        const double now = size();
+        for (int a = 0; a < dim; ++a)
+            for (double& v : p.v[a])
+                v *= start / now;
+        for (int c = 0; c < stressComponents(dim); ++c)
+            for (double& v : p.stress[c])
+                v *= start / now;
+        stepper->particlesChanged();
+        grown += k >= steps - counted ? std::log(now / start) : 0;
+    }
+    return std::exp(grown / counted);
+}
+
+/// The largest stable c_p dt/h, by bisection.
+double critical(const FreeBlock& block)
+{
+    double low = 0.05, high = 3;
+    for (int i = 0; i < 7; ++i)
+    {
+        const double middle = std::sqrt(low * high);
+        (growth(block, middle) < 1.01 ? low : high) = middle;
+    }
+    return low;
+}
+} // namespace
+
+TEST_CASE("free blocks in two and three dimensions bear the solver's bounds")
+{
+    for (const int dim : {2, 3})
+        for (const char* shape : {"linear", "uGIMP", "cpGIMP", "quadraticBSpline"})
+            for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
+            {
+                if (std::string(shape) == "linear" && update == StressUpdate::USL)
+                    continue; // its bound follows the lightest node: above
+                const double bound = stepping::criticalCourant(dim, std::string(shape) != "linear", update, 1);
+                double least = 9;
+                for (const double poisson : {0.0, 0.3, 0.499})
+                    for (const Index perCell : {1, 2, 3})
+                        for (const double disorder : {0.0, 0.5})
+                        {
+                            if (dim == 3 && (perCell == 3 || (perCell == 2 && poisson == 0)))
+                                continue; // time
+                            const unsigned seed = unsigned(1 + perCell + 10 * dim + 100 * disorder);
+                            const FreeBlock block{dim, shape, update, poisson, perCell, disorder, seed};
+                            CAPTURE(dim, shape, int(update), poisson, perCell, disorder);
+                            CHECK(growth(block, bound) < 1.01);
+                            if (dim == 2 && perCell == 2)
+                                least = std::min(least, critical(block));
+                        }
+                if (dim == 2)
+                    fmt::print(
+                        "{}D {:>16} {:<4}: the solver allows {:.2f}; two particles a cell bear {:.2f} and more\n", dim,
+                        shape, stepping::stressUpdateName(update), bound, least);
+            }
 }
