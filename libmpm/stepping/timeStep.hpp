@@ -1,8 +1,8 @@
 #pragma once
 /// How large a time step may be.
 ///
-/// Stability (METHOD, Stability limit): dt <= C h/(c_p + 3 |v|), for hat functions C h c_p/(c_p + 3 |v|)^2; c_p =
-/// sqrt(M/rho) is the largest P-wave speed, |v| the largest particle speed, h the cell size. Bounds C, for 2D and 3D:
+/// Stability (METHOD, Stability limit): dt <= C h/(c_p + 3 |v|), for hat functions times c_p/(c_p + 3 min(|v|, 2 c_p));
+/// c_p = sqrt(M/rho) is the largest P-wave speed, |v| the largest particle speed, h the cell size. Bounds C in 2D and 3D:
 ///                    linear                        GIMP, splines
 ///     USL            min(C, 1.2 sqrt(m_i/m))       0.36, in 3D 0.32
 ///     USF, MUSL      0.85                          1.2, in 3D 1.0
@@ -36,9 +36,6 @@ struct StabilityLimit
     double waveSpeed = 0; ///< c_p [m/s]
     double speed = 0;     ///< |v| [m/s]
     double deltaT = 0;    ///< bound of dt [s]
-
-    /// What is to stay under C at a time step: (c_p + 3 |v|) dt/h, for hat functions times (c_p + 3 |v|)/c_p.
-    double use(double dt) const { return courant * dt / deltaT; }
 };
 
 /// Does the bound change as particles move? (USL with hat functions.)

@@ -18,7 +18,7 @@ for nu, shape, update in ((0.499, "linear", "MUSL"), (0.499, "uGIMP", "MUSL"), (
     tag = f"({run.folder.name})"
     case.common(run)
     limit = log_number(run, r"stability\s+deltaT <= (\S+) s")
-    bound = 0.36 if update == "USL" else 0.85 if shape == "linear" else 1.4
+    bound = 0.36 if update == "USL" else 0.85 if shape == "linear" else 1.2
     expected = bound * h * np.sqrt(rho / M)
     case.check(f"error of the allowed step, {bound} h sqrt(rho/M) {tag}", abs(limit / expected - 1), "<=", 1e-3)
     first, last = run.state(0), run.state()
