@@ -18,7 +18,7 @@ double sum(const stepping::PassTimes& p)
 
 void RunProfile::beginSteps(const stepping::PassTimes& passes)
 {
-    start_ = elapsed() - history - output - sum(passes); // the stability limit may have run passes already
+    start_ = elapsed() - timeStep - monitor - history - output - sum(passes); // the stability limit may have run passes already
 }
 
 double RunProfile::elapsed() const
@@ -36,6 +36,8 @@ std::vector<RunProfile::Row> RunProfile::rows(const stepping::PassTimes& p) cons
                           {"law", p.law},
                           {"sort", p.sort},
                           {"split", p.split},
+                          {"timeStep", timeStep},
+                          {"monitor", monitor},
                           {"history", history},
                           {"output", output}};
     const double total = elapsed();
@@ -54,7 +56,7 @@ std::string RunProfile::text(const stepping::PassTimes& passes, int indent) cons
     const double total = all.back().seconds;
     for (const Row& row : all)
         if (row.seconds != 0)
-            table.row({row.pass, fmt::format("{:.3f}", row.seconds), fmt::format("{:.1f}", 100 * row.seconds / total),
+            table.row({row.pass, fmt::format("{:.3f}", row.seconds), fmt::format("{:.2f}", 100 * row.seconds / total),
                        fmt::format("{:.1f}", nsPerParticleStep(row.seconds))});
     return table.text(indent);
 }

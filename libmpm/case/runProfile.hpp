@@ -10,9 +10,11 @@
 ///     toParticles   grid to particles: velocity, position, second projection
 ///     law           velocity gradients, deformation and stress
 ///     sort, split   order of the particles in memory; refining them
+///     timeStep      how large the next step may be
+///     monitor       what stepping/monitor.hpp looks at, and copies to go back to
 ///     history       energy budget, rows of postProcessing/*.csv
 ///     output        states and the index files of ParaView
-///     other         all else: step size, strain paths, progress
+///     other         all else: strain paths, progress
 ///     total         the sum
 ///
 /// nsPerParticleStep is a row's time over the sum, over all steps, of the particles there were. Covered by
@@ -27,7 +29,7 @@ namespace mpm::cases
 class RunProfile
 {
   public:
-    double history = 0, output = 0; ///< [s], filled by base/clock.hpp
+    double timeStep = 0, monitor = 0, history = 0, output = 0; ///< [s], filled by base/clock.hpp
 
     /// Reading and checking are over.
     void beginSteps(const stepping::PassTimes& passes);

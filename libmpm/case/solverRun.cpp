@@ -147,9 +147,9 @@ double SolverRun::stepSize() const
 /// Follows stiffness (nodal masses, expansion) and speed where the step adapts to them.
 double SolverRun::nextStep()
 {
+    const Clock clock(profile_.timeStep);
     if (runTime_->adjustable())
     {
-        const Clock clock(adaptSeconds_);
         if (stepping::limitFollowsMass(scene_.scene, limitIgnoresMass(scene_.shape)))
             limit_ = stabilityLimit();
         else if (state_.step != limitStep_) // the report is of a step that was kept
@@ -174,6 +174,7 @@ std::string SolverRun::tryStep()
     {
         return error.what();
     }
+    const Clock clock(profile_.monitor);
     const auto limit = stepping::movedLimit(limit_, restWaveSpeed_, state_, stepper_->report().largestSpeed);
     const auto found = monitor_->look(state_, stepper_->report(), limit);
     return found.empty() ? found : fmt::format("step {} at time {:.9g} s: {}", state_.step, state_.time, found);
@@ -216,7 +217,10 @@ void SolverRun::giveUp(const std::string& why)
 void SolverRun::step()
 {
     const Clock clock(stepSeconds_);
-    monitor_->remember(state_);
+    {
+        const Clock watching(profile_.monitor);
+        monitor_->remember(state_);
+    }
     if (recorder_)
         recorder_->before(state_);
     for (auto fault = tryStep(); !fault.empty(); fault = tryStep())

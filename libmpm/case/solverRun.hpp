@@ -84,7 +84,7 @@ class SolverRun
     std::future<void> writing_; ///< the disk takes the state `writingName_` while steps go on
     std::string writingName_;
     double firstTime_ = 0, timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
-    double stepSeconds_ = 0, adaptSeconds_ = 0;
+    double stepSeconds_ = 0;
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
     Index firstStep_ = 0, writtenStep_ = 0;
     Index limitStep_ = 0; ///< the step limit_ was made anew at

@@ -170,7 +170,7 @@ void SolverRun::summary()
     if (runTime_->adjustable() && steps > 0)
         line("time step", fmt::format("{:.4g} to {:.4g} s, mean {:.4g} s; adapting it took {:.2g} % of the run",
                                       smallestStep_, largestStep_, (state_.time - firstTime_) / double(steps),
-                                      100 * adaptSeconds_ / profile_.elapsed()));
+                                      100 * profile_.timeStep / profile_.elapsed()));
     for (const auto& [what, text] : monitor_->summary())
         line(what, text);
     warnings();

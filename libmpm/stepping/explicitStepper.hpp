@@ -76,7 +76,7 @@ class ExplicitStepper : public Stepper
         AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
         alignas(64) Vectors x, xNew, half, v;
         alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes];
-        alignas(64) double bulk[lanes], shear[lanes];
+        alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
         alignas(64) constitutive::TensorLanes<dim> L, F;
         alignas(64) double J[lanes];
         constitutive::Chunk<dim> law;
@@ -159,7 +159,7 @@ class ExplicitStepper : public Stepper
         double ofStrainsBefore = 0, ofStrains = 0; ///< of the stress before and after its update, both on w
     } work_;
     double smallestMass_ = 0;
-    std::vector<std::array<double, 2>> moduli_; ///< K and G of each material
+    std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step
     bool stray_ = false;                        ///< the last projection left particles out

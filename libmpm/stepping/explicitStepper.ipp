@@ -34,7 +34,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
                 tractionPatch_.push_back(k);
             }
     for (const auto& material : scene.materials)
-        moduli_.push_back({material.law->bulkModulus(), material.law->shearModulus()});
+        moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
     sortByStoredKeys(state);
 }
 

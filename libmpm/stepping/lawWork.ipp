@@ -18,17 +18,21 @@ void workOfStrain(const constitutive::Chunk<dim>& chunk, double (&density)[lanes
             density[l] += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
 }
 
-/// Elastic energy density 1/2 sigma : C^-1 : sigma in every lane.
+/// Elastic energy density 1/2 sigma : C^-1 : sigma = p^2/(2 K) + s : s/(4 G) in every lane, from 1/(2 K) and 1/(4 G).
 template <int dim>
-void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&bulk)[lanes], const double (&shear)[lanes],
-                   double (&energy)[lanes])
+void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&halfOverBulk)[lanes],
+                   const double (&quarterOverShear)[lanes], double (&energy)[lanes])
 {
+    const auto& sigma = chunk.stress;
     for (int l = 0; l < lanes; ++l)
     {
-        double sigma[stressSize<dim>];
-        for (int k = 0; k < stressSize<dim>; ++k)
-            sigma[k] = chunk.stress[k][l];
-        energy[l] = constitutive::elasticEnergyDensity<dim>(sigma, bulk[l], shear[l]);
+        const double p = (sigma[0][l] + sigma[1][l] + sigma[2][l]) * (1.0 / 3);
+        double ss = 0;
+        for (int k = 0; k < 3; ++k)
+            ss += (sigma[k][l] - p) * (sigma[k][l] - p);
+        for (int k = 3; k < stressSize<dim>; ++k)
+            ss += 2 * sigma[k][l] * sigma[k][l];
+        energy[l] = p * p * halfOverBulk[l] + ss * quarterOverShear[l];
     }
 }
 
@@ -50,7 +54,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     alignas(64) double energyBefore[lanes], energy[lanes], work[lanes], workTurned[lanes], workAfter[lanes];
     workOfStrain(chunk, work);
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, work);
-    elasticEnergy(chunk, ws.bulk, ws.shear, energyBefore);
+    elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
     constitutive::advanceDeformation(ws.L, dt, ws.F);
     ws.ahead.some(4);
@@ -85,7 +89,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
     workOfStrain(chunk, workAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workAfter);
-    elasticEnergy(chunk, ws.bulk, ws.shear, energy);
+    elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
     sums.strainEnergy += transfer::sumOfProducts(ws.volume, energy);
     for (int l = 0; l < lanes; ++l)
     {
@@ -103,18 +107,18 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
         updateDomains(ws, first, count);
 }
 
-/// K and G of each lane's material; ones beyond the particles.
+/// 1/(2 K) and 1/(4 G) of each lane's material.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int count) const
 {
     const std::int32_t* material = state_.particles.material.data() + first;
-    std::fill_n(ws.bulk, lanes, moduli_[std::size_t(material[0])][0]);
-    std::fill_n(ws.shear, lanes, moduli_[std::size_t(material[0])][1]);
+    std::fill_n(ws.halfOverBulk, lanes, moduli_[std::size_t(material[0])][0]);
+    std::fill_n(ws.quarterOverShear, lanes, moduli_[std::size_t(material[0])][1]);
     for (int l = 1; l < count; ++l)
         if (material[l] != material[0])
         {
-            ws.bulk[l] = moduli_[std::size_t(material[l])][0];
-            ws.shear[l] = moduli_[std::size_t(material[l])][1];
+            ws.halfOverBulk[l] = moduli_[std::size_t(material[l])][0];
+            ws.quarterOverShear[l] = moduli_[std::size_t(material[l])][1];
         }
 }
 

@@ -2,7 +2,8 @@
 /// How large a time step may be.
 ///
 /// Stability (METHOD, Stability limit): dt <= C h/(c_p + 3 |v|), for hat functions times c_p/(c_p + 3 min(|v|, 2 c_p));
-/// c_p = sqrt(M/rho) is the largest P-wave speed, |v| the largest particle speed, h the cell size. Bounds C in 2D and 3D:
+/// c_p = sqrt(M/rho) is the largest P-wave speed, |v| the largest particle speed, h the cell size. Bounds C in 2D and
+/// 3D:
 ///                    linear                        GIMP, splines
 ///     USL            min(C, 1.2 sqrt(m_i/m))       0.36, in 3D 0.32
 ///     USF, MUSL      0.85                          1.2, in 3D 1.0

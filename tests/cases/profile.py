@@ -18,7 +18,8 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 BINARIES = Path(os.environ.get("MPM_BUILD_DIR") or PROJECT / "build").resolve() / "bin"
 COLUMN = PROJECT / "cases" / "collapsingSoilColumn"
-PASSES = ["start", "weights", "toGrid", "nodal", "toParticles", "law", "sort", "split", "history", "output", "other", "total"]
+PASSES = ["start", "weights", "toGrid", "nodal", "toParticles", "law", "sort", "split", "timeStep", "monitor",
+          "history", "output", "other", "total"]
 
 
 def change(case, file, word, value):
