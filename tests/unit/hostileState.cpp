@@ -70,6 +70,23 @@ TEST_CASE("flipped bytes end in a state or one InputError, never in anything els
     CHECK(refused > 0);
 }
 
+TEST_CASE("damage to the header of any object is refused before a header behind it is opened")
+{
+    TemporaryFolder folder;
+    writeState(folder / "1", sampleState(2, 20));
+    const std::string whole = contents(folder / "1/state.h5");
+    const fs::path damaged = folder / "damaged.h5";
+    int headers = 0;
+    for (auto at = whole.find("OHDR"); at != std::string::npos; at = whole.find("OHDR", at + 4), ++headers)
+    {
+        std::string bytes = whole;
+        bytes[at + 20] = char(bytes[at + 20] ^ 1);
+        writeContents(damaged, bytes);
+        CHECK_THAT(refusal(damaged), Catch::Contains("damaged at /") || Catch::Contains("cannot be opened"));
+    }
+    CHECK(headers > 50);
+}
+
 TEST_CASE("foreign files are refused readably")
 {
     TemporaryFolder folder;
