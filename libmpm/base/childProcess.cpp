@@ -24,7 +24,7 @@ namespace
 {
 constexpr int codeOfException = 70;
 
-[[noreturn]] void child(const std::function<std::string()>& work, int out, pid_t parent)
+[[noreturn]] void child(const std::function<std::string()>& work, double moreMemory, int out, pid_t parent)
 {
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -36,7 +36,7 @@ constexpr int codeOfException = 70;
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (int descriptor = 0; nowhere >= 0 && descriptor <= 2; ++descriptor)
         ::dup2(nowhere, descriptor);
-    confineProcess();
+    confineProcess(moreMemory);
     try
     {
         const std::string bytes = work();
@@ -102,7 +102,7 @@ ChildAnswer runInChild(const std::function<std::string()>& work, const ChildLimi
     if (process == 0)
     {
         ::close(ends[0]);
-        child(work, ends[1], parent);
+        child(work, limits.moreMemory, ends[1], parent);
     }
     ::close(ends[1]);
     ChildAnswer answer;

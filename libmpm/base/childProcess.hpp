@@ -11,6 +11,7 @@
 /// closed. It dies with its parent. Threads are not forked: do not call it while a thread holds a lock the work needs.
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace mpm
@@ -19,6 +20,8 @@ struct ChildLimits
 {
     double seconds = 300;                   ///< of wall time, then it is ended
     std::uint64_t answerBytes = 1ull << 30; ///< a longer answer is a failure
+    double moreMemory =
+        std::numeric_limits<double>::infinity(); ///< than the caller has [bytes]; never above the machine
 };
 
 struct ChildAnswer

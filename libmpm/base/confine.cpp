@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -109,13 +110,13 @@ bool filterCalls()
 #endif
 } // namespace
 
-bool confineProcess()
+bool confineProcess([[maybe_unused]] double moreMemory)
 {
     std::signal(SIGXFSZ, SIG_IGN); // writing fails with EFBIG instead
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CORE, 0);
 #ifndef MPM_SANITIZED // which map terabytes they never touch
-    if (const double bytes = machineMemory(); std::isfinite(bytes))
+    if (const double bytes = std::min(machineMemory(), dataMemory() + moreMemory); std::isfinite(bytes))
         limit(RLIMIT_DATA, rlim_t(bytes));
 #endif
     return filterCalls();

@@ -7,13 +7,26 @@
 
 namespace mpm
 {
-double peakMemory()
+namespace
+{
+double fromStatus(const char* key)
 {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;)
-        if (double kilobytes = 0; word == "VmHWM:" && status >> kilobytes)
+        if (double kilobytes = 0; word == key && status >> kilobytes)
             return 1024 * kilobytes;
     return 0;
+}
+} // namespace
+
+double peakMemory()
+{
+    return fromStatus("VmHWM:");
+}
+
+double dataMemory()
+{
+    return fromStatus("VmData:");
 }
 
 double machineMemory()

@@ -10,6 +10,9 @@ namespace mpm::geometry
 {
 namespace
 {
+/// Coordinates [m]: a sphere of galaxies fits, rounding errors of any body are larger. Exact arithmetic on numbers of
+/// all magnitudes between 1e-308 and 1e308 would take minutes on a few hundred triangles.
+constexpr double largest = 1e30, smallest = 1e-60;
 constexpr char meshMark = 'm', refusalMark = 'r';
 constexpr std::size_t longestRefusal = 4000; // characters
 
@@ -155,11 +158,16 @@ GmshMesh meshFromBytes(const std::string& bytes, const std::filesystem::path& fi
     mesh.dim = dim;
     mesh.file = file;
     mesh.points = in.list<Vector3>();
-    for (const Vector3& p : mesh.points)
-        for (const double x : p)
-            if (!std::isfinite(x))
-                throw InputError({file.string(), 0},
-                                 fmt::format("found a point at ({} {} {}), allowed finite numbers", p[0], p[1], p[2]));
+    for (Vector3& p : mesh.points)
+        for (double& x : p)
+        {
+            if (!(std::abs(x) <= largest))
+                throw InputError(
+                    {file.string(), 0},
+                    fmt::format("found a point at ({} {} {}), allowed numbers up to {:g}", p[0], p[1], p[2], largest));
+            if (std::abs(x) < smallest)
+                x = 0;
+        }
     mesh.regions.resize(in.count(8 + 1 + 8));
     for (RawRegion& region : mesh.regions)
     {

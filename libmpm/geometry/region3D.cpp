@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <unordered_map>
 
 namespace mpm::geometry
@@ -27,6 +28,25 @@ using Mesh = CGAL::Surface_mesh<Point>;
 Vector3 vector(const Point& p)
 {
     return {p.x(), p.y(), p.z()};
+}
+
+/// Where an edge of one triangle passes through another, for a message; nothing where rounding hides it. (CGAL's
+/// intersection() with inexact constructions ends the program when numbers overflow or vanish.)
+std::optional<Point> commonPoint(const Kernel::Triangle_3& edges, const Kernel::Triangle_3& face)
+{
+    const auto normal = CGAL::cross_product(face[1] - face[0], face[2] - face[0]);
+    for (int k = 0; k < 3; ++k)
+    {
+        const Point& from = edges[k];
+        const double before = normal * (from - face[0]), behind = normal * (edges[k + 1] - face[0]);
+        const Point at = from + before / (before - behind) * (edges[k + 1] - from);
+        bool inside = before * behind <= 0 && before != behind;
+        for (int i = 0; i < 3; ++i)
+            inside = inside && normal * CGAL::cross_product(face[i + 1] - face[i], at - face[i]) >= 0;
+        if (inside)
+            return at;
+    }
+    return std::nullopt;
 }
 
 /// A triangle of the surface with its range, for the sweep.
@@ -103,15 +123,8 @@ void Region3D::Body::checkSurface(const std::string& name) const
         return Kernel::Triangle_3(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
                                   mesh.point(mesh.target(mesh.next(h))));
     };
-    const Point centre = CGAL::centroid(triangle(cuts[0].first));
-    place = vector(centre);
-    if (const auto common = CGAL::intersection(triangle(cuts[0].first), triangle(cuts[0].second)))
-    {
-        if (const auto* p = boost::get<Point>(&*common))
-            place = vector(*p);
-        else if (const auto* s = boost::get<Kernel::Segment_3>(&*common))
-            place = vector(CGAL::midpoint(s->source(), s->target()));
-    }
+    const auto first = triangle(cuts[0].first), second = triangle(cuts[0].second);
+    place = vector(commonPoint(first, second).value_or(commonPoint(second, first).value_or(CGAL::centroid(first))));
     throw InputError(
         fmt::format("region '{}': its surface cuts or touches itself in {} pairs of triangles, the first at {}", name,
                     cuts.size(), placeText(place, 3)));

@@ -365,10 +365,11 @@ std::uint64_t Hdf5File::claim(const std::string& object, const std::string& attr
     {
         const Handle dataset = openDataset(file_, object);
         const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
-        if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) != 0)
+        const H5D_layout_t layout = H5Pget_layout(properties);
+        if (layout == H5D_VIRTUAL || H5Pget_external_count(properties) != 0)
             fail(object, "keeps its values in another file, which is not allowed");
-        if (H5Dget_storage_size(dataset) < count * bytes)
-            fail(object, "is compressed or was never written; plain storage is required");
+        if (layout == H5D_CHUNKED || H5Dget_storage_size(dataset) < count * bytes)
+            fail(object, "is in chunks, compressed or was never written; plain storage is required");
     }
     return count;
 }

@@ -7,8 +7,8 @@
 ///
 /// A reader does not trust its file. An array must have exactly the element type asked for (double, float, int64,
 /// int32; either byte order), the shape asked for, its bytes inside the file: soft, external and virtual objects,
-/// external storage, compressed or unallocated data are refused, and all that is read from one file may not exceed
-/// sixteen times its length. So no file makes a program allocate much more than the file itself takes on the disk.
+/// external storage, chunked, compressed or unallocated data are refused, and all that is read from one file may not
+/// exceed sixteen times its length. So no file makes a program allocate much more than the file itself takes on disk.
 /// A file shorter than it was written is refused when opened. Files are written in HDF5's 1.8 format, whose headers
 /// carry checksums, so damage to them is found before it leads anywhere.
 ///

@@ -177,6 +177,10 @@ void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const
     row.sums = booked;
     for (Index i = row.begin; i < row.end; ++i)
         for (int a = 0; a < dim; ++a)
-            std::swap(row.node[i][row.velocity + a], row.node[i][row.trial + a]);
+        {
+            const double velocity = row.node[i][row.velocity + a]; // no std::swap: clang has no references to lanes
+            row.node[i][row.velocity + a] = row.node[i][row.trial + a];
+            row.node[i][row.trial + a] = velocity;
+        }
 }
 } // namespace mpm::stepping

@@ -32,26 +32,27 @@ struct ChunkWeights
         }
     }
 
-    /// Offsets in the window; false if a support reaches beyond it.
+    /// Offsets in the window; false if a support reaches beyond it, however far: the differences wrap around, and one
+    /// of them then has its sign bit.
     bool locate(const state::NodeBox& window)
     {
-        std::int32_t below = 0, above = 0;
-        std::int32_t stride = 1;
+        std::uint32_t below = 0, above = 0;
+        std::uint32_t stride = 1;
         for (int l = 0; l < lanes; ++l)
             offset[l] = 0;
         for (int a = 0; a < dim; ++a)
         {
-            const auto lo = std::int32_t(window.lo[a]), room = std::int32_t(window.n[a]) - n;
+            const auto lo = std::uint32_t(window.lo[a]), room = std::uint32_t(window.n[a]) - std::uint32_t(n);
             for (int l = 0; l < lanes; ++l)
             {
-                const std::int32_t i = axis[a].base[l] - lo;
+                const std::uint32_t i = std::uint32_t(axis[a].base[l]) - lo;
                 below |= i;
                 above |= room - i;
-                offset[l] += stride * i;
+                offset[l] = std::int32_t(std::uint32_t(offset[l]) + stride * i);
             }
-            stride *= std::int32_t(window.n[a]);
+            stride *= std::uint32_t(window.n[a]);
         }
-        return below >= 0 && above >= 0;
+        return std::int32_t(below | above) >= 0;
     }
 };
 } // namespace mpm::transfer

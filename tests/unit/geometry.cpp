@@ -157,6 +157,15 @@ TEST_CASE("surfaces that are open or cut themselves are refused with name and pl
     cutting.add(boxSurface({0.5, 0.5, 0.5}, {2, 2, 2}));
     REQUIRE_THROWS_WITH(Region3D("pair", cutting.points, cutting.triangles),
                         Contains("'pair'") && Contains("cuts or touches itself") && Contains("at ("));
+    Surface3 pierced = boxSurface({0, 0, 0}, {8, 8, 1}); // from above by a needle at (2 6 .), whose tip is inside
+    const int n = int(pierced.points.size());
+    for (const auto& p : {Vector3{2, 6, 0.5}, Vector3{1.9, 5.9, 3}, Vector3{2.1, 5.9, 3}, Vector3{2, 6.1, 3}})
+        pierced.points.push_back(p);
+    for (const auto& t : {std::array{0, 2, 1}, std::array{0, 3, 2}, std::array{0, 1, 3}, std::array{1, 2, 3}})
+        pierced.triangles.push_back({n + t[0], n + t[1], n + t[2]});
+    REQUIRE_THROWS_WITH(Region3D("needle", pierced.points, pierced.triangles),
+                        (Contains("at (1.9") || Contains("at (2")) && (Contains(" 6") || Contains(" 5.9")) &&
+                            Contains(" 1)"));
 }
 
 TEST_CASE("a .geo file gives regions and boundaries that face outward")
