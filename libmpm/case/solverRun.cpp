@@ -105,6 +105,8 @@ void SolverRun::openOutput()
     folder_.requireWritable();
     folder_.removeLeftovers();
     written_->tidy();
+    for (const auto& time : folder_.times()) // damaged ones are told now, not when the first state is written
+        output::readSummary(folder_.statePath(time.name));
     const bool fresh = state_.step == 0;
     // A run that ended here wrote its last row out of turn; the uninterrupted run has none.
     const bool outOfTurn = state_.step % runTime_->historyInterval() != 0 && !done();

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "output/hdf5File.hpp"
+#include "output/hdf5Probe.hpp"
 #include "output/replaceFile.hpp"
 #include "output/visualisation.hpp"
 
@@ -110,6 +111,7 @@ void rewrite(const fs::path& name, const state::State& state, const std::vector<
              const NodalFields* nodal)
 {
     copyToTemporary(name);
+    rememberHarmless(temporaryName(name)); // a copy of what was read
     try
     {
         Hdf5File file = Hdf5File::edit(temporaryName(name));
@@ -124,6 +126,7 @@ void rewrite(const fs::path& name, const state::State& state, const std::vector<
             writeNodal(file, *nodal, state.particles.dim);
         file.close();
         commitTemporary(name);
+        rememberHarmless(name);
     }
     catch (const InputError&)
     {

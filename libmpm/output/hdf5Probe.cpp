@@ -3,9 +3,14 @@
 #include "base/childProcess.hpp"
 #include "base/error.hpp"
 
+#include <array>
 #include <cstdint>
 #include <hdf5.h>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 namespace mpm::output
@@ -62,10 +67,39 @@ std::string lookAtAll(const std::filesystem::path& name, std::uint64_t length)
         return bad + (look.object == "." ? "/" : "/" + look.object);
     return {whole};
 }
+
+using Identity = std::array<std::int64_t, 5>;
+std::set<Identity> known;
+std::mutex knownMutex;
+
+/// Device, inode, length and time of change of a file.
+std::optional<Identity> identityOf(const std::filesystem::path& name)
+{
+    struct stat s;
+    if (::stat(name.c_str(), &s) != 0)
+        return std::nullopt;
+    return Identity{std::int64_t(s.st_dev), std::int64_t(s.st_ino), std::int64_t(s.st_size), s.st_ctim.tv_sec,
+                    s.st_ctim.tv_nsec};
+}
 } // namespace
+
+void rememberHarmless(const std::filesystem::path& name)
+{
+    if (const auto file = identityOf(name))
+    {
+        const std::lock_guard guard(knownMutex);
+        known.insert(*file);
+    }
+}
 
 void requireHarmless(const std::filesystem::path& name)
 {
+    if (const auto file = identityOf(name))
+    {
+        const std::lock_guard guard(knownMutex);
+        if (known.count(*file))
+            return;
+    }
     std::error_code ignored;
     const std::uint64_t length = std::filesystem::file_size(name, ignored);
     const ChildAnswer answer =
@@ -78,5 +112,6 @@ void requireHarmless(const std::filesystem::path& name)
         throw InputError({name.string()}, "cannot be opened as HDF5: truncated, damaged, or locked by another program");
     if (answer.bytes[0] == bad)
         throw InputError({name.string()}, "truncated or damaged at " + answer.bytes.substr(1) + " or behind it");
+    rememberHarmless(name);
 }
 } // namespace mpm::output

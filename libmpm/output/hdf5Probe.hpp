@@ -8,6 +8,11 @@
 namespace mpm::output
 {
 /// Throws InputError if HDF5 did not survive the file, or could not open it or an object in it (which is named).
-/// Where no process can be started nothing is looked at.
+/// Where no process can be started nothing is looked at. A file is looked at once: it is known again by its inode,
+/// length and time of change.
 void requireHarmless(const std::filesystem::path& file);
+
+/// This program has written the file: it need not be looked at. (And must not while threads run: a child of fork would
+/// wait for locks that other threads held.)
+void rememberHarmless(const std::filesystem::path& file);
 } // namespace mpm::output

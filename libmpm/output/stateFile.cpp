@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "output/hdf5File.hpp"
+#include "output/hdf5Probe.hpp"
 #include "output/ledgerEntries.hpp"
 #include "output/replaceFile.hpp"
 #include "output/visualisation.hpp"
@@ -293,6 +294,7 @@ PendingState::~PendingState()
 void PendingState::commit()
 {
     commitTemporary(file_);
+    rememberHarmless(file_);
     committed_ = true;
 }
 
