@@ -18,7 +18,8 @@ double sum(const stepping::PassTimes& p)
 
 void RunProfile::beginSteps(const stepping::PassTimes& passes)
 {
-    start_ = elapsed() - timeStep - monitor - history - output - sum(passes); // the stability limit may have run passes already
+    start_ = elapsed() - timeStep - monitor - history - output -
+             sum(passes); // the stability limit may have run passes already
 }
 
 double RunProfile::elapsed() const
