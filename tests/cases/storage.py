@@ -18,7 +18,7 @@ from reproducibility import content
 END = "0.25"
 
 # Last row of history.csv: crest and toes [m], kinetic energy [J].
-DOUBLES = {"maxY": 7.688863829903591, "minX": -0.07384806375807881, "maxX": 4.073848063758073, "kineticEnergy": 31361.50668550708}
+DOUBLES = {"maxY": 7.688948707304742, "minX": -0.07366108897307108, "maxX": 4.073661088973069, "kineticEnergy": 31399.127638267124}
 PLACES = 1e-7  # [m] of crest and toes; found 1e-8
 ENERGY = 1e-7  # relative; found 3e-9
 
@@ -62,11 +62,13 @@ class Storage(ColumnCase):
         """One pass after another in the caches must see what a restart reads: columns of floats are rounded at once."""
         for shape in ("linear", "uGIMP", "cpGIMP", "quadraticBSpline"):
             for update in ("MUSL", "USL", "USF"):
+                if (shape, update) == ("linear", "USL"):
+                    continue  # unstable as nodes empty, and stopped (tests/stability/emptyingNode)
                 with self.subTest(shape=shape, update=update):
                     whole = self.fresh(f"{shape}{update}")
                     self.set(whole, "system/mpmSchemes", "shape", shape)
                     self.set(whole, "system/mpmSchemes", "stressUpdate", update)
-                    self.set(whole, "system/controlDict", "deltaT", "4e-4")
+                    self.set(whole, "system/controlDict", "deltaT", "2.5e-4")
                     again = whole.with_name(f"{shape}{update}Again")
                     shutil.copytree(whole, again)
                     self.run_utility(whole, "mpmSolve", "-threads", "1")
