@@ -11,9 +11,10 @@ namespace mpm::cases
 using dictionary::Bound;
 using stepping::MonitorAction;
 
-RunMonitor::RunMonitor(const dictionary::Dictionary& controlDict, bool adjustable)
+RunMonitor::RunMonitor(const dictionary::Dictionary& controlDict, bool adjustable, bool records)
 {
-    rule_.action = adjustable ? MonitorAction::adapt : MonitorAction::stop;
+    const bool mayGoBack = adjustable && !records;
+    rule_.action = mayGoBack ? MonitorAction::adapt : MonitorAction::stop;
     const auto* d = controlDict.findDict("monitor", "what to do about energy from nowhere and the like");
     if (!d)
         return;
@@ -21,9 +22,11 @@ RunMonitor::RunMonitor(const dictionary::Dictionary& controlDict, bool adjustabl
                                   {{"stop", "the run ends, exit code 2; the last stored state is good"},
                                    {"adapt", "back to the last good step, then half the time step"},
                                    {"warn", "a message, once, and on"}},
-                                  adjustable ? "adapt" : "stop");
+                                  mayGoBack ? "adapt" : "stop");
     if (action == "adapt" && !adjustable)
         d->fail("action", "adapt with adjustTimeStep no", "stop or warn, or adjustTimeStep yes");
+    if (action == "adapt" && records)
+        d->fail("action", "adapt beside recordStrain, whose paths cannot go back", "stop or warn, or no recordStrain");
     rule_.action = action == "stop"   ? MonitorAction::stop
                    : action == "warn" ? MonitorAction::warn
                                       : MonitorAction::adapt;

@@ -17,8 +17,9 @@ namespace mpm::cases
 class RunMonitor
 {
   public:
-    /// Reads `monitor`, if it is there. adjustable: adjustTimeStep yes, which `adapt` needs.
-    RunMonitor(const dictionary::Dictionary& controlDict, bool adjustable);
+    /// Reads `monitor`, if it is there. adjustable: adjustTimeStep yes, which `adapt` needs, and with which it is the
+    /// default unless strain paths are recorded: those cannot go back.
+    RunMonitor(const dictionary::Dictionary& controlDict, bool adjustable, bool records);
 
     void begin(const state::State& state, const stepping::Scene& scene);
     bool adapts() const { return rule_.action == stepping::MonitorAction::adapt; }

@@ -19,11 +19,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
 {
     const auto control = dictionary::Dictionary::readFile(folder.dictionaryPath("system/controlDict"));
     runTime_.emplace(control);
-    monitor_.emplace(control, runTime_->adjustable());
     auto record = StrainRecorder::wanted(control);
-    if (!record.empty() && monitor_->adapts())
-        control.fail("recordStrain", "recorded paths in a run that may go back",
-                     "monitor { action stop; } beside adjustTimeStep yes");
+    monitor_.emplace(control, runTime_->adjustable(), !record.empty());
     control.rejectUnread();
     const TimeFolder start = startFolder();
     lastStored_ = start.name;
