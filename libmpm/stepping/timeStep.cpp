@@ -46,7 +46,8 @@ StabilityLimit movedLimit(StabilityLimit limit, double restWaveSpeed, const stat
     limit.waveSpeed = restWaveSpeed * std::sqrt(state.largestJacobian);
     limit.speed = speed;
     const double reach = limit.waveSpeed + 3 * limit.speed;
-    limit.deltaT = limit.courant * state.grid.h / reach * (limit.hats ? limit.waveSpeed / std::min(reach, 7 * limit.waveSpeed) : 1);
+    limit.deltaT = limit.courant * state.grid.h / reach *
+                   (limit.hats ? limit.waveSpeed / std::min(reach, 7 * limit.waveSpeed) : 1);
     return limit;
 }
 
