@@ -19,7 +19,44 @@ namespace
 {
 constexpr double modulus = 1e6, density = 1000, h = 0.5;
 
-/// Growth of the free motion per step, over the last of many steps.
+/// Growth per step of the free motion of the linearised step, over the last `counted` of many: positions and domains
+/// are put back and the motion is scaled to its first size after each.
+double growth(stepping::Stepper& stepper, state::Particles& p, double dt, double wave, int steps, int counted)
+{
+    const auto rest = p;
+    const auto size = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        {
+            for (int a = 0; a < p.dim; ++a)
+                sum += density * p.v[a][i] * p.v[a][i];
+            for (int k = 0; k < stressComponents(p.dim); ++k)
+                sum += p.stress[k][i] * p.stress[k][i] / wave;
+        }
+        return std::sqrt(sum);
+    };
+    const double start = size();
+    double grown = 0;
+    for (int n = 0; n < steps; ++n)
+    {
+        stepper.step(dt);
+        p.x = rest.x;
+        p.F = rest.F;
+        p.volume = rest.volume;
+        const double now = size();
+        for (int a = 0; a < p.dim; ++a)
+            for (double& v : p.v[a])
+                v *= start / now;
+        for (int k = 0; k < stressComponents(p.dim); ++k)
+            for (double& s : p.stress[k])
+                s *= start / now;
+        stepper.particlesChanged();
+        grown += n >= steps - counted ? std::log(now / start) : 0;
+    }
+    return std::exp(grown / counted);
+}
+
+/// The same for a bar.
 double growth(const std::string& shape, StressUpdate update, double delta, double courant)
 {
     const Index N = 8;
@@ -45,33 +82,7 @@ double growth(const std::string& shape, StressUpdate update, double delta, doubl
     const double low = 2 * h + delta * h;
     for (Index i = 0; i < p.size(); ++i)
         p.v[0][std::size_t(i)] = perRow[std::size_t(std::lround((p.x[0][std::size_t(i)] - low) / (h / 2) - 0.5))];
-    const auto rest = p;
-    const double dt = courant * h / std::sqrt(modulus / density);
-    const auto size = [&] {
-        double sum = 0;
-        for (Index i = 0; i < p.size(); ++i)
-            sum += density * p.v[0][std::size_t(i)] * p.v[0][std::size_t(i)] +
-                   p.stress[0][std::size_t(i)] * p.stress[0][std::size_t(i)] / modulus;
-        return std::sqrt(sum);
-    };
-    const double start = size();
-    double grown = 0;
-    const int steps = 1500, counted = 500;
-    for (int n = 0; n < steps; ++n)
-    {
-        stepper->step(dt);
-        p.x = rest.x;
-        p.F = rest.F;
-        p.volume = rest.volume;
-        const double now = size();
-        for (auto* columns : {&p.v[0], &p.v[1], &p.stress[0], &p.stress[1], &p.stress[2], &p.stress[3]})
-            for (double& value : *columns)
-                value *= start / now;
-        stepper->particlesChanged();
-        if (n >= steps - counted)
-            grown += std::log(now / start);
-    }
-    return std::exp(grown / counted);
+    return growth(*stepper, p, courant * h / std::sqrt(modulus / density), modulus, 1500, 500);
 }
 } // namespace
 
@@ -155,39 +166,8 @@ double growth(const FreeBlock& block, double courant)
             p.v[a][std::size_t(i)] = speed(random);
         }
     auto stepper = cases::makeStepper(block.shape, s, scene);
-    const auto rest = p;
-    const double wave = scene.materials[0].law->waveModulus(), dt = courant * h / std::sqrt(wave / density);
-    const auto size = [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
-        {
-            for (int a = 0; a < dim; ++a)
-                sum += density * p.v[a][i] * p.v[a][i];
-            for (int k = 0; k < stressComponents(dim); ++k)
-                sum += p.stress[k][i] * p.stress[k][i] / wave;
-        }
-        return std::sqrt(sum);
-    };
-    const double start = size();
-    double grown = 0;
-    const int steps = 500, counted = 200;
-    for (int k = 0; k < steps; ++k)
-    {
-        stepper->step(dt);
-        p.x = rest.x;
-        p.F = rest.F;
-        p.volume = rest.volume;
-        const double now = size();
-        for (int a = 0; a < dim; ++a)
-            for (double& v : p.v[a])
-                v *= start / now;
-        for (int c = 0; c < stressComponents(dim); ++c)
-            for (double& v : p.stress[c])
-                v *= start / now;
-        stepper->particlesChanged();
-        grown += k >= steps - counted ? std::log(now / start) : 0;
-    }
-    return std::exp(grown / counted);
+    const double wave = scene.materials[0].law->waveModulus();
+    return growth(*stepper, p, courant * h / std::sqrt(wave / density), wave, 500, 200);
 }
 
 /// The largest stable c_p dt/h, by bisection.
