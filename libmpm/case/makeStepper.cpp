@@ -1,7 +1,9 @@
 #include "case/makeStepper.hpp"
 
 #include "base/error.hpp"
+#include "shape/CPDI.hpp"
 #include "shape/cpGIMP.hpp"
+#include "shape/cubicBSpline.hpp"
 #include "shape/linear.hpp"
 #include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
@@ -13,7 +15,9 @@ const std::vector<dictionary::Choice>& shapeCatalogue()
     static const std::vector<dictionary::Choice> catalogue = {
         {"uGIMP", "particle domains that keep their size"},
         {"cpGIMP", "particle domains that follow the stretch"},
+        {"CPDI", "particle domains that follow stretch, shear and rotation"},
         {"quadraticBSpline", "points and quadratic splines, smooth across cells"},
+        {"cubicBSpline", "points and cubic splines, the smoothest"},
         {"linear", "points and hat functions, the original method"}};
     return catalogue;
 }
@@ -36,9 +40,15 @@ std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::
     if (shape == "cpGIMP")
         return flat ? stepping::makeExplicitStepper<2, shape::CpGIMP>(state, scene)
                     : stepping::makeExplicitStepper<3, shape::CpGIMP>(state, scene);
+    if (shape == "CPDI")
+        return flat ? stepping::makeExplicitStepper<2, shape::CPDI>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::CPDI>(state, scene);
     if (shape == "quadraticBSpline")
         return flat ? stepping::makeExplicitStepper<2, shape::QuadraticBSpline>(state, scene)
                     : stepping::makeExplicitStepper<3, shape::QuadraticBSpline>(state, scene);
+    if (shape == "cubicBSpline")
+        return flat ? stepping::makeExplicitStepper<2, shape::CubicBSpline>(state, scene)
+                    : stepping::makeExplicitStepper<3, shape::CubicBSpline>(state, scene);
     throw InputError("there is no shape '" + shape + "'");
 }
 } // namespace mpm::cases

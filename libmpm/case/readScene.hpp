@@ -9,10 +9,12 @@
 ///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
 ///     free.
 /// system/mpmSchemes:
-///     shape         uGIMP;      // uGIMP | cpGIMP | quadraticBSpline | linear
+///     shape         uGIMP;      // uGIMP | cpGIMP | CPDI | quadraticBSpline | cubicBSpline | linear
 ///     stressUpdate  MUSL;       // USF | USL | MUSL
-///     transfer      FLIP;
-///     picRate       0;          // [1/s] share of PIC velocity mixed in per second
+///     transfer      FLIP;       // FLIP | XPIC | FMPM | APIC | TPIC (stepping/velocityFilter.ipp, transfer/affine.hpp)
+///     picRate       0;          // FLIP: [1/s] share of PIC velocity mixed in per second
+///     order         2;          // XPIC, FMPM: terms of the filter; 1 is PIC
+///     staggeredStart off;       // on: the first kick is half a step, velocities live at t - dt/2 (not with USF)
 ///     sortInterval  20;         // steps between sorts of the particles
 ///     damping       { ... }     // nodal/damping.hpp; absent: none
 ///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none

@@ -146,6 +146,8 @@ class Checker
         finite(p_.v, dim);
         finite(p_.stress, stressSize<dim>);
         finite(p_.F, dim * dim);
+        finite(p_.X, p_.hasX() ? dim : 0);
+        finite(p_.affine, p_.hasAffine() ? dim * dim : 0);
         for (int k = 0; k < dim; ++k)
             positive(p_.length0[std::size_t(k)]);
         positive(p_.mass);
@@ -172,6 +174,8 @@ class Checker
             finiteAll("velocity", p_.v, p_.dim, i);
             finiteAll("stress", p_.stress, stressComponents(p_.dim), i);
             finiteAll("deformationGradient", p_.F, p_.dim * p_.dim, i);
+            finiteAll("referencePosition", p_.X, p_.hasX() ? p_.dim : 0, i);
+            finiteAll("affine", p_.affine, p_.hasAffine() ? p_.dim * p_.dim : 0, i);
             for (int k = 0; k < p_.dim; ++k)
                 positive("length0", p_.length0[std::size_t(k)][i], i);
             positive("mass", p_.mass[i], i);

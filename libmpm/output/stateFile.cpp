@@ -130,6 +130,10 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
     plain("sortKey", p.sortKey, "1");
     plain("material", p.material, "1");
     plain("generation", p.generation, "1");
+    if (p.hasX())
+        file.writeRows<double>("/particles/referencePosition", {n, dim}, "m", interleaved(p.X, dim));
+    if (p.hasAffine())
+        file.writeRows<double>("/particles/affine", {n, dim, dim}, "1/s", interleaved(p.affine, dim * dim));
 }
 
 void readParticles(const Hdf5File& file, state::Particles& p)
@@ -160,6 +164,16 @@ void readParticles(const Hdf5File& file, state::Particles& p)
     plain("sortKey", p.sortKey);
     plain("material", p.material);
     plain("generation", p.generation);
+    if (file.exists("/particles/referencePosition"))
+    {
+        p.enableX();
+        file.readRows<double>("/particles/referencePosition", {n, dim}, dealTo(p.X, dim));
+    }
+    if (file.exists("/particles/affine"))
+    {
+        p.enableAffine();
+        file.readRows<double>("/particles/affine", {n, dim, dim}, dealTo(p.affine, dim * dim));
+    }
     p.padLastChunk();
 }
 

@@ -16,6 +16,8 @@
 ///     /particles/volume0, volume (N)           float64 [m^3]         (2D: m^2)
 ///     /particles/id, sortKey     (N)           int64                 (sortKey, id) is the order in memory
 ///     /particles/material, generation (N)      int32
+///     /particles/referencePosition (N, dim)    float64 [m], positions at the start; only where a case names them
+///     /particles/affine          (N, dim, dim) float64 [1/s], affine velocity, only with APIC and TPIC
 ///     /grid/origin (3) [m], /grid/cellSize [m], /grid/cells (3) int64, attribute dimension
 ///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run
 ///     /patches/<name>/centre (n, dim), edges (n, dim (dim - 1)) [m]; attribute index (place in the list)

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "constitutive/kinematics.hpp"
 #include "shape/cpGIMP.hpp"
+#include "shape/cubicBSpline.hpp"
 #include "shape/linear.hpp"
 #include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
@@ -186,13 +187,15 @@ WeightTable fillBy(const state::State& state, const std::string& shape)
         return fill<dim, shape::UGIMP>(state);
     if (shape == "quadraticBSpline")
         return fill<dim, shape::QuadraticBSpline>(state);
+    if (shape == "cubicBSpline")
+        return fill<dim, shape::CubicBSpline>(state);
     return fill<dim, shape::CpGIMP>(state);
 }
 } // namespace
 
 const std::vector<std::string>& shapeNames()
 {
-    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "quadraticBSpline"};
+    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "quadraticBSpline", "cubicBSpline"};
     return names;
 }
 

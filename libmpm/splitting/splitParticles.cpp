@@ -139,9 +139,14 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
     p.volume0[parent] *= share;
     p.volume[parent] *= share;
     p.generation[parent] += 1;
+    Vector3 centreX{}, quarter{}; // of the reference domain, whose edges follow the axes
     for (int k = 0; k < p.dim; ++k)
+    {
+        centreX[k] = p.hasX() ? p.X[k][parent] : 0;
+        quarter[k] = 0.25 * factor * double(p.length0[k][parent]);
         if (e.cut[k])
             p.length0[k][parent] *= 0.5;
+    }
 
     Vector3 change{-before[0], -before[1], -before[2]};
     for (int child = 0; child < 1 << e.cuts; ++child)
@@ -161,6 +166,8 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
                 const double sign = (child >> bit++ & 1) ? 1 : -1;
                 for (int a = 0; a < p.dim; ++a)
                     offset[a] += sign * 0.25 * factor * e.vector[k][a];
+                if (p.hasX())
+                    p.X[k][c] = centreX[k] + sign * quarter[k];
             }
         for (int a = 0; a < p.dim; ++a)
             p.x[a][c] = centre[a] + offset[a];

@@ -30,6 +30,27 @@ void Particles::resize(Index n)
     size_ = n;
 }
 
+void Particles::enableX()
+{
+    hasX_ = true;
+    for (int k = 0; k < dim; ++k)
+        X[k] = x[k];
+}
+
+void Particles::enableAffine()
+{
+    hasAffine_ = true;
+    for (int k = 0; k < dim * dim; ++k)
+        affine[k].assign(mass.size(), 0.0);
+}
+
+void Particles::disableAffine()
+{
+    hasAffine_ = false;
+    for (auto& column : affine)
+        column = {};
+}
+
 void Particles::padLastChunk()
 {
     if (size_ == 0)

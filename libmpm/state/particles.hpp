@@ -46,6 +46,21 @@ struct Particles
     Column<std::int32_t> material;   ///< index into State::materials
     Column<std::int32_t> generation; ///< number of splits behind the particle
 
+    // Absent (no memory, no bytes in a file) unless a case asks for them.
+    std::array<Column<double>, 3> X; ///< position at the start, the material point a particle follows [m]
+    /// Affine part of the velocity near the particle, v(x) = v_p + C (x - x_p): dim x dim row by row [1/s], what the
+    /// transfers APIC and TPIC carry.
+    std::array<Column<double>, 9> affine;
+
+    bool hasX() const { return hasX_; }
+    bool hasAffine() const { return hasAffine_; }
+    /// Adds the columns of X: the positions as they are.
+    void enableX();
+    /// Adds the columns of the affine part: zero.
+    void enableAffine();
+    /// Takes them away again.
+    void disableAffine();
+
     Index size() const { return size_; }
     Index chunks() const { return (size_ + lanes - 1) / lanes; }
 
@@ -78,9 +93,14 @@ struct Particles
         visit(sortKey);
         visit(material);
         visit(generation);
+        for (int k = 0; k < dim && hasX_; ++k)
+            visit(X[k]);
+        for (int k = 0; k < dim * dim && hasAffine_; ++k)
+            visit(affine[k]);
     }
 
   private:
+    bool hasX_ = false, hasAffine_ = false;
     Index size_ = 0;
 };
 } // namespace mpm::state

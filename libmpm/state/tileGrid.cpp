@@ -148,8 +148,8 @@ void TileGrid::findBlocks()
         records += std::size_t(block.box.size());
         blocks_.push_back(std::move(block));
     }
-    if (nodes_.size() < records)
-        nodes_.resize(records + records / 8);
+    if (nodes_[0].size() < records)
+        nodes_[0].resize(records + records / 8);
 }
 
 Record* TileGrid::find(Index i, Index j, Index k)

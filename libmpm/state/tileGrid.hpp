@@ -97,7 +97,10 @@ class TileGrid
     const std::vector<Tile>& tiles() const { return tiles_; }
     const std::vector<Block>& blocks() const { return blocks_; }
     Index largestWindow() const { return largestWindow_; }
-    std::size_t bytes() const { return (windows_.capacity() + nodes_.capacity()) * sizeof(Record); }
+    std::size_t bytes() const
+    {
+        return (windows_.capacity() + nodes_[0].capacity() + nodes_[1].capacity()) * sizeof(Record);
+    }
 
     /// A tile's window: records of type R (Record or HalfRecord), as the box `window` orders them.
     template <class R>
@@ -110,8 +113,13 @@ class TileGrid
     {
         std::fill_n(window<R>(tile), std::size_t(tile.window.size()), R{});
     }
-    Record* nodes(const Block& block) { return nodes_.data() + block.start; }
-    const Record* nodes(const Block& block) const { return nodes_.data() + block.start; }
+    /// A block's nodes, x fastest. Layer 0 is always there, layer 1 after openLayer().
+    Record* nodes(const Block& block, int layer = 0) { return nodes_[std::size_t(layer)].data() + block.start; }
+    const Record* nodes(const Block& block, int layer = 0) const
+    {
+        return nodes_[std::size_t(layer)].data() + block.start;
+    }
+    void openLayer() { nodes_[1].resize(nodes_[0].size()); }
 
     /// Calls add(i0, i1, in) for each window over row (j, k) of the block, in the order of the tiles: in[0] belongs to
     /// node i0.
@@ -133,7 +141,7 @@ class TileGrid
 
     /// out[window order] = repack(node record) for all nodes of a tile's window.
     template <class R, class Repack>
-    void copyToWindow(const Tile& tile, R* out, Repack&& repack) const
+    void copyToWindow(const Tile& tile, R* out, Repack&& repack, int layer = 0) const
     {
         for (const Index b : tile.blocks)
         {
@@ -142,7 +150,7 @@ class TileGrid
             for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
                 for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
                 {
-                    const Record* from = nodes(block) + block.box.offset(both.lo[0], j, k);
+                    const Record* from = nodes(block, layer) + block.box.offset(both.lo[0], j, k);
                     R* to = out + tile.window.offset(both.lo[0], j, k);
                     prefetch(from + block.box.n[0], both.n[0]);
                     for (Index i = 0; i < both.n[0]; ++i)
@@ -168,7 +176,8 @@ class TileGrid
 
     std::vector<Tile> tiles_;
     std::vector<Block> blocks_; ///< by key
-    AlignedVector<Record> windows_, nodes_;
+    AlignedVector<Record> windows_;
+    std::array<AlignedVector<Record>, 2> nodes_;
     Index largestWindow_ = 0;
     std::vector<TileLayout> layout_; ///< one, once built
 };

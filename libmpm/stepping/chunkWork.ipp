@@ -32,14 +32,20 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
     }
     if (pass.velocity)
         grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
-    if (pass.strain && pass.gradientLane == 1)
+    if ((filters() && pass.velocity) || pass.filter)
+    {
+        ws.filteredValues.resize(ws.values.size());
+        grid_.copyToWindow(tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
+    }
+    if ((pass.strain && pass.gradientLane == 1) || (pass.velocity && affine()))
         grid_.copyToWindow(tile, ws.gradients.data(),
-                           [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); });
+                           [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
+                           filters() ? filterLayer : 0);
     if (pass.strain && pass.gradientLane != 1)
         grid_.copyToWindow(tile, ws.gradients.data(),
                            [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });
     lap(ws, &PassTimes::toParticles);
-    if (pass.reproject || pass.then == Project::momentum)
+    if (pass.reproject || pass.filter || pass.then == Project::momentum)
         grid_.template clearWindow<HalfRecord>(tile);
     else if (pass.then == Project::forces)
         grid_.template clearWindow<Record>(tile);
@@ -64,21 +70,24 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
     loadDomains(ws, first, count);
 
-    if (pass.velocity || pass.strain)
+    if (pass.velocity || pass.strain || pass.filter)
         withWeights(ws, ws.x, [&](auto& w) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
+            if (pass.filter || (filters() && pass.velocity))
+                gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
             if (pass.velocity)
             {
                 gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
                 advanceVelocity(ws, first, count, dt);
+                if (affine())
+                    advanceAffine(ws, w, tile, first, count);
                 lap(ws, &PassTimes::toParticles);
             }
-            if (pass.reproject)
+            if (pass.filter || pass.reproject)
             {
-                ws.momentum.build(ws.mass, ws.v);
-                projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, prefetch);
-                lap(ws, &PassTimes::toGrid);
+                ws.momentum.build(ws.mass, pass.filter ? ws.filtered.v : ws.v);
+                projectMomentum(ws, w, tile, ws.x, first, count, pass.reproject);
             }
             if (pass.strain)
             {
@@ -108,27 +117,64 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         if (pass.then == Project::momentum)
         {
             ws.momentum.build(ws.mass, ws.v);
-            projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, prefetch);
+            projectMomentum(ws, w, tile, x, first, count, true);
+            return;
         }
-        else
+        if (!pass.strain)
         {
-            if (!pass.strain)
-            {
-                transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
-                for (int k = 0; k < stressSize<dim>; ++k)
-                    transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
-            }
-            ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
-            projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
-            if (scene_.bodyForce)
-            {
-                alignas(64) double b[3][lanes];
-                scene_.bodyForce->acceleration(p, first, count, state_.time, b);
-                projectBodyForce(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
-            }
+            transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
+            for (int k = 0; k < stressSize<dim>; ++k)
+                transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
+        }
+        ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
+        projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
+        if (affine())
+            projectAffine<Record>(ws, w, tile, x, first, count);
+        if (scene_.bodyForce)
+        {
+            alignas(64) double b[3][lanes];
+            scene_.bodyForce->acceleration(p, first, count, state_.time + (pass.moves ? dt : 0), b);
+            transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
         }
         lap(ws, &PassTimes::toGrid);
     });
+}
+
+/// Mass and momentum in ws.momentum, and the affine field where particles carry one.
+template <int dim, class Shape>
+template <class W>
+void ExplicitStepper<dim, Shape>::projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x,
+                                                  Index first, int count, bool withAffine)
+{
+    projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, [&] { ws.ahead.some(); });
+    if (withAffine && affine())
+        projectAffine<HalfRecord>(ws, w, tile, x, first, count);
+    lap(ws, &PassTimes::toGrid);
+}
+
+template <int dim, class Shape>
+template <class Node, class W>
+void ExplicitStepper<dim, Shape>::projectAffine(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x,
+                                                Index first, int count)
+{
+    for (int k = 0; k < dim * dim; ++k)
+        transfer::loadLanes(state_.particles.affine[k].data() + first, count, ws.affine[k]);
+    transfer::projectAffine<dim>(w, ws.mass, ws.affine, x, state_.grid, count, grid_.template window<Node>(tile),
+                                 tile.window);
+}
+
+/// C of APIC or TPIC from v*.
+template <int dim, class Shape>
+template <class W>
+void ExplicitStepper<dim, Shape>::advanceAffine(Workspace& ws, const W& w, const state::Tile& tile, Index first,
+                                                int count)
+{
+    if (scene_.transfer == Transfer::TPIC)
+        gatherGradient(w, ws.gradients.data(), tile.window, ws.affine, [&] { ws.ahead.some(); });
+    else
+        transfer::gatherAffine<dim>(w, ws.gradients.data(), ws.x, state_.grid, count, tile.window, ws.affine);
+    for (int k = 0; k < dim * dim; ++k)
+        transfer::storeLanes(state_.particles.affine[k].data() + first, count, ws.affine[k]);
 }
 
 /// The columns a pass reads, in about the order it reads them.
@@ -141,16 +187,16 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     {
         ahead.add(p.x[a].data());
         ahead.add(p.v[a].data());
-        if constexpr (Shape::hasDomain)
+        if constexpr (Shape::hasDomain) // CPDI: F with it, below
             ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());
         if (pass.velocity || pass.moves)
             ahead.add(next_[a].data());
     }
     ahead.add(p.mass.data());
+    for (int k = 0; k < dim * dim && (pass.strain || hasCorners); ++k)
+        ahead.add(p.F[k].data());
     if (pass.strain)
     {
-        for (int k = 0; k < dim * dim; ++k)
-            ahead.add(p.F[k].data());
         ahead.add(p.volume0.data());
         ahead.add(p.material.data());
     }
@@ -191,6 +237,13 @@ void ExplicitStepper<dim, Shape>::loadDomains(Workspace& ws, Index first, int co
 {
     if constexpr (!Shape::hasDomain)
         return;
+    if constexpr (hasCorners)
+    {
+        for (int k = 0; k < dim * dim; ++k)
+            transfer::loadLanes(state_.particles.F[k].data() + first, count, ws.F[k]);
+        cornerDomains(ws, first, count);
+        return;
+    }
     for (int a = 0; a < dim; ++a)
     {
         if constexpr (Shape::followsStretch)
@@ -205,10 +258,31 @@ void ExplicitStepper<dim, Shape>::loadDomains(Workspace& ws, Index first, int co
     }
 }
 
+/// Half edges of the domains in cells, from ws.F; returns how many domains are held at their widest.
+template <int dim, class Shape>
+int ExplicitStepper<dim, Shape>::cornerDomains(Workspace& ws, Index first, int count) const
+{
+    alignas(64) double half[lanes];
+    const double scale = 0.5 / state_.grid.h;
+    for (int k = 0; k < dim; ++k)
+    {
+        transfer::loadLanes(state_.particles.length0[k].data() + first, count, half);
+        for (int a = 0; a < dim; ++a)
+            for (int l = 0; l < lanes; ++l)
+                ws.half[a * dim + k][l] = scale * half[l] * ws.F[a * dim + k][l];
+    }
+    return shape::CPDI::holdWithin<dim>(ws.half, count);
+}
+
 /// Domains after F has changed (in ws.F). Those wider than the shape's support allows are held there and counted.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::updateDomains(Workspace& ws, Index first, int count)
 {
+    if constexpr (hasCorners)
+    {
+        ws.sums.cappedDomains += cornerDomains(ws, first, count);
+        return;
+    }
     const auto& p = state_.particles;
     const double scale = 0.5 / state_.grid.h;
     constexpr double widest = Shape::followsStretch ? 1.0 : 0.5;
@@ -242,22 +316,31 @@ void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x) c
             ws.sums.stray = true;
 }
 
-/// v_p += dt sum N a (FLIP); with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
-/// New positions x + dt sum N v* go to ws.xNew and to next_.
+/// FLIP: v_p += dt sum N a, and with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
+/// Other transfers: v_p = sum N v*, XPIC and FMPM with v* filtered. New positions x + dt sum N v* go to ws.xNew and to
+/// next_.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt)
 {
     auto& p = state_.particles;
     alignas(64) double vv[lanes] = {};
-    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * dt) : 0;
+    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
+    const bool flip = scene_.transfer == Transfer::FLIP;
     for (int a = 0; a < dim; ++a)
     {
+        const auto& vGrid = filters() ? ws.filtered.v[a] : ws.value.v[a];
+        if (flip)
+            for (int l = 0; l < lanes; ++l)
+            {
+                const double kicked = ws.v[a][l] + kick_ * ws.value.a[a][l];
+                ws.v[a][l] = kicked + alpha * (vGrid[l] - kicked);
+            }
+        else
+            std::copy_n(vGrid, lanes, ws.v[a]);
         for (int l = 0; l < lanes; ++l)
         {
-            const double flip = ws.v[a][l] + dt * ws.value.a[a][l];
-            ws.v[a][l] = flip + alpha * (ws.value.v[a][l] - flip);
             vv[l] += ws.v[a][l] * ws.v[a][l];
-            ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.v[a][l];
+            ws.xNew[a][l] = ws.x[a][l] + dt * vGrid[l];
         }
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
@@ -273,9 +356,9 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
         for (int a = 0; a < dim; ++a)
             for (int l = 0; l < count; ++l)
             {
-                const double end = dt * ws.mass[l] * b[a][l] * ws.value.v[a][l];
+                const double end = kick_ * ws.mass[l] * b[a][l] * ws.value.v[a][l];
                 ws.sums.bodyForceEnd += end;
-                ws.sums.bodyForceWork += end - 0.5 * dt * dt * ws.mass[l] * b[a][l] * ws.value.a[a][l];
+                ws.sums.bodyForceWork += end - 0.5 * kick_ * kick_ * ws.mass[l] * b[a][l] * ws.value.a[a][l];
             }
     }
 }

@@ -12,7 +12,9 @@
 #include "nodal/wall.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
+#include "transfer/affine.hpp"
 #include "transfer/chunkColumns.hpp"
+#include "transfer/cornerWeights.hpp"
 #include "transfer/gridToParticle.hpp"
 #include "transfer/particleToGrid.hpp"
 
@@ -35,6 +37,10 @@ class ExplicitStepper : public Stepper
     template <class S>
     using Weights = transfer::ChunkWeights<dim, S>;
     using Vectors = double[dim][lanes];
+    using Domain = typename Weights<Shape>::Domain;
+    static constexpr bool hasCorners = requires { Shape::hasCorners; };
+
+    static constexpr int filterLayer = 1; ///< of the nodes: what XPIC and FMPM filter
 
     enum class Project
     {
@@ -46,7 +52,8 @@ class ExplicitStepper : public Stepper
     /// What one pass over the particles does, in this order.
     struct Pass
     {
-        bool velocity = false;           ///< v += dt a, and new positions x + dt v*
+        bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
+        bool filter = false;             ///< gather the velocity being filtered and project it as it is
         bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions
         bool strain = false;             ///< velocity gradient, F, V and stress
         int gradientLane = 1;            ///< node lanes strains are taken from: 1: v*, 1 + dim: w
@@ -72,9 +79,12 @@ class ExplicitStepper : public Stepper
     /// One thread's chunk of particles and node windows.
     struct Workspace
     {
-        AlignedVector<typename transfer::ValueNode<dim>::Type> values;
+        AlignedVector<typename transfer::ValueNode<dim>::Type> values, filteredValues;
         AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
-        alignas(64) Vectors x, xNew, half, v;
+        alignas(64) Vectors x, xNew, v;
+        alignas(64) Domain half;
+        alignas(64) constitutive::TensorLanes<dim> affine;
+        transfer::Values<dim> filtered;
         alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes];
         alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
         alignas(64) constitutive::TensorLanes<dim> L, F;
@@ -101,7 +111,10 @@ class ExplicitStepper : public Stepper
     void sumWindows(const nodal::NodeRow<dim>& row, const state::Block& block, Node* sum);
     template <class What>
     void sumNodes(nodal::NodeRow<dim>& row, const state::Block& block);
-    void solveNodes(double dt);
+    void solveNodes();
+    void filterVelocities();
+    template <class Change>
+    void filterRow(Change&& change);
     void strainVelocities(double dt, bool secondProjection);
     void setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const;
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
@@ -122,6 +135,16 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     void advanceVelocity(Workspace& ws, Index first, int count, double dt);
+    template <class W>
+    void projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count,
+                         bool withAffine);
+    template <class Node, class W>
+    void projectAffine(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count);
+    template <class W>
+    void advanceAffine(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count);
+    int cornerDomains(Workspace& ws, Index first, int count) const;
+    bool affine() const { return scene_.transfer == Transfer::APIC || scene_.transfer == Transfer::TPIC; }
+    bool filters() const { return scene_.transfer == Transfer::XPIC || scene_.transfer == Transfer::FMPM; }
     void updateStress(Workspace& ws, Index first, int count, double dt);
     void loadModuli(Workspace& ws, Index first, int count) const;
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
@@ -159,6 +182,7 @@ class ExplicitStepper : public Stepper
         double ofStrainsBefore = 0, ofStrains = 0; ///< of the stress before and after its update, both on w
     } work_;
     double smallestMass_ = 0;
+    double kick_ = 0; ///< time over which the coming step's accelerations act: dt, half of it at a staggered start
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step

@@ -5,6 +5,7 @@
 #include "stepping/chunkWork.ipp"
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
+#include "stepping/velocityFilter.ipp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -35,6 +36,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
             }
     for (const auto& material : scene.materials)
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
+    if (affine() && !state.particles.hasAffine())
+        state.particles.enableAffine();
+    if (!affine() && state.particles.hasAffine()) // the state of a run with another transfer
+        state.particles.disableAffine();
     sortByStoredKeys(state);
 }
 
@@ -51,24 +56,28 @@ void ExplicitStepper<dim, Shape>::step(double dt)
 {
     arrange();
     project();
+    kick_ = scene_.staggeredStart && state_.step == 0 ? 0.5 * dt : dt;
     switch (scene_.stressUpdate)
     {
     case StressUpdate::MUSL:
-        solveNodes(dt);
+        solveNodes();
+        filterVelocities();
         particlePass(dt, {.velocity = true, .reproject = true});
         moveSurfaces(dt);
         strainVelocities(dt, true);
         particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USL:
-        solveNodes(dt);
+        solveNodes();
+        filterVelocities();
         moveSurfaces(dt);
         particlePass(dt, {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);
         particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .then = Project::forces});
-        solveNodes(dt);
+        solveNodes();
+        filterVelocities();
         moveSurfaces(dt);
         particlePass(dt, {.velocity = true, .moves = true, .then = firstProjection()});
         break;
@@ -126,12 +135,13 @@ void ExplicitStepper<dim, Shape>::buildTiles()
     if constexpr (Shape::hasDomain)
     {
         auto ws = std::make_unique<Workspace>();
+        constexpr bool needsF = Shape::followsStretch || hasCorners;
         for (int a = 0; a < dim && Shape::followsStretch; ++a)
             domain_[a].resize(p.mass.size());
         for (Index first = 0; first < p.size(); first += lanes)
         {
             const int count = int(std::min<Index>(lanes, p.size() - first));
-            for (int k = 0; k < dim * dim && Shape::followsStretch; ++k)
+            for (int k = 0; k < dim * dim && needsF; ++k)
                 transfer::loadLanes(p.F[k].data() + first, count, ws->F[k]);
             updateDomains(*ws, first, count);
         }
@@ -252,12 +262,12 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.apexReturns += total.apexReturns;
         report_.smallestJacobian = total.smallestJacobian;
         report_.maxYieldViolation = total.maxYield;
-        if (Shape::followsStretch)
+        if (Shape::followsStretch || hasCorners)
             report_.cappedDomains = total.cappedDomains;
     }
     if (pass.then != Project::nothing)
     {
-        projected_ = !scene_.bodyForce; // prescribed forces are asked for at the time and place of their step
+        projected_ = true;
         stray_ = total.stray;
     }
 }
@@ -279,6 +289,11 @@ void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
     {
         ledger.pendingWork = found;
         ledger.initialStaggering = (strainsFirst ? -0.5 : 0.5) * found;
+    }
+    if (kick_ != dt) // half a kick at the start, then strains over the whole step
+    {
+        ledger.initialStaggering = 0.5 * (work_.ofForcesBefore - work_.ofForces);
+        work_.ofForces *= dt / kick_;
     }
     const double sameStep = state_.step == 0 ? 1 : state_.deltaT / dt;
     if (strainsFirst)

@@ -103,7 +103,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
     sums.apexReturns += chunk.apexReturns;
     sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
-    if constexpr (Shape::followsStretch)
+    if constexpr (Shape::followsStretch || hasCorners)
         updateDomains(ws, first, count);
 }
 

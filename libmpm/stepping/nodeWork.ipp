@@ -75,7 +75,7 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
 
 /// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::solveNodes(double dt)
+void ExplicitStepper<dim, Shape>::solveNodes()
 {
     Clock clock(times_.nodal);
     const bool loaded = !tractions_.empty();
@@ -88,14 +88,14 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         if (!loaded)
             sumNodes<transfer::Forces>(row, block);
-        row.dt = dt;
+        row.dt = kick_;
         nodal::beginRow(row);
         for (const auto& effect : effects_)
             effect->apply(row);
         applyWalls(row);
         for (const auto& effect : effects_)
             effect->book(row);
-        nodal::endRow(row, 1 / dt);
+        nodal::endRow(row, 1 / kick_);
     });
     nodal::NodeSums sums;
     for (const auto& block : blockSums_)
@@ -105,7 +105,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(double dt)
     work_.ofForces = -sums.forceWork;
     for (const auto& traction : tractions_)
     {
-        const auto [before, after] = traction.book(dt, ledger.tractionWork, ledger.tractionImpulse);
+        const auto [before, after] = traction.book(kick_, ledger.tractionWork, ledger.tractionImpulse);
         work_.ofForcesBefore += before;
         work_.ofForces += after;
     }

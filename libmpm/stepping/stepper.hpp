@@ -28,6 +28,16 @@ enum class StressUpdate
     MUSL
 };
 
+/// How velocities return to the particles (transfer/, stepping/velocityFilter.ipp).
+enum class Transfer
+{
+    FLIP, ///< v_p += dt sum N a, with a rate of PIC
+    XPIC, ///< v_p = sum N (v^(k) + dt a): what no grid sees is filtered out of v
+    FMPM, ///< v_p = sum N v*^(k): the same filter as an approximate inverse of the full mass matrix
+    APIC, ///< v_p = sum N v* and an affine field around the particle (transfer/affine.hpp)
+    TPIC  ///< the same with the velocity gradient
+};
+
 /// A prescribed body force per unit mass that varies in space and time (manufactured solutions).
 class BodyForce
 {
@@ -49,7 +59,10 @@ struct Scene
     std::optional<splitting::Rule> splitting;
     std::shared_ptr<const BodyForce> bodyForce;
     StressUpdate stressUpdate = StressUpdate::MUSL;
-    double picRate = 0;      ///< r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
+    Transfer transfer = Transfer::FLIP;
+    int transferOrder = 2;       ///< k of XPIC and FMPM; 1 is PIC
+    bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
+    double picRate = 0;      ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20; ///< steps between sorts of the particles
 };
 

@@ -14,12 +14,12 @@ template <int dim, class Shape>
 struct ChunkWeights
 {
     static constexpr int n = Shape::nodes;
+    using Domain = double[dim][lanes]; ///< half lengths over h (shapes without domains ignore them)
     shape::AxisWeights<n> axis[dim];
     alignas(64) std::int32_t offset[lanes]; ///< of node (0, 0, 0) of each lane's support in the window
 
-    /// x: positions [m]; half: half lengths of the domains over h (shapes without domains ignore them); walls: planes
-    /// of nodes that carry a wall (shapes that know no walls ignore them).
-    void evaluate(const double (&x)[dim][lanes], const double (&half)[dim][lanes], const state::GridBox& grid,
+    /// x: positions [m]; walls: planes of nodes that carry a wall (shapes that know no walls ignore them).
+    void evaluate(const double (&x)[dim][lanes], const Domain& half, const state::GridBox& grid,
                   const WallPlanes& walls = {})
     {
         const double invH = 1 / grid.h;

@@ -267,26 +267,6 @@ void projectChunk(const ChunkWeights<dim, Shape>& w, const ParticleRecords<dim, 
     }
 }
 
-/// Adds m_p b_p N_ip of a prescribed acceleration b to the first force lanes of a window.
-template <int dim, class Shape>
-void projectBodyForce(const ChunkWeights<dim, Shape>& w, const double (&mass)[lanes], const double (&b)[3][lanes],
-                      int count, Record* window, const state::NodeBox& box)
-{
-    constexpr int n = Shape::nodes;
-    for (int l = 0; l < count; ++l)
-        for (int k = 0; k < (dim == 3 ? n : 1); ++k)
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                {
-                    double N = w.axis[0].N[i][l] * w.axis[1].N[j][l];
-                    if constexpr (dim == 3)
-                        N *= w.axis[2].N[k][l];
-                    Record& node = window[w.offset[l] + (k * box.n[1] + j) * box.n[0] + i];
-                    for (int a = 0; a < dim; ++a)
-                        node[1 + dim + a] += mass[l] * b[a][l] * N;
-                }
-}
-
 /// A summed record of projected forces -> (m, p, f).
 template <int dim>
 inline Record finishNode(const Record& r)

@@ -1,6 +1,7 @@
 // Shape functions against what defines them: partition of unity, the mean of the hat over the particle's domain
 // (METHOD Eq. 4, integrated numerically), derivatives, and the limit of vanishing domains.
 #include "shape/cpGIMP.hpp"
+#include "shape/cubicBSpline.hpp"
 #include "shape/linear.hpp"
 #include "shape/quadraticBSpline.hpp"
 #include "shape/uGIMP.hpp"
@@ -111,6 +112,7 @@ TEST_CASE("weights sum to one, gradients to zero, linear fields are kept")
     checkSums<shape::UGIMP>(randomLanes(0.01, 0.5));
     checkSums<shape::CpGIMP>(randomLanes(0.01, 1.0));
     checkSums<shape::QuadraticBSpline>(randomLanes(0.1, 0.5));
+    checkSums<shape::CubicBSpline>(randomLanes(0.1, 0.5));
 }
 
 TEST_CASE("a node that a particle has a gradient towards gets some of its mass")
@@ -122,6 +124,83 @@ TEST_CASE("a node that a particle has a gradient towards gets some of its mass")
     for (int l = 0; l < lanes; ++l)
         for (int n = 0; n < 2; ++n)
             CHECK(w.N[n][l] > 0);
+}
+
+TEST_CASE("cubic splines are the mean of the quadratic ones over one cell")
+{
+    const auto at = randomLanes(0.5, 0.5);
+    const auto w = weights<shape::CubicBSpline>(at);
+    // the mean of a cubic's derivative is a difference of quadratics half a cell away on either side
+    Lanes left = at, right = at;
+    for (int l = 0; l < lanes; ++l)
+    {
+        left.x[l] -= 0.5 * h;
+        right.x[l] += 0.5 * h;
+    }
+    const auto a = weights<shape::QuadraticBSpline>(left), b = weights<shape::QuadraticBSpline>(right);
+    const auto at3 = [](const shape::AxisWeights<3>& q, int l, int node) {
+        const int n = node - q.base[l];
+        return n >= 0 && n < 3 ? q.N[n][l] : 0.0;
+    };
+    for (int l = 0; l < lanes; ++l)
+        for (int n = 0; n < 4; ++n)
+        {
+            const int node = w.base[l] + n;
+            CHECK(w.G[n][l] * h == Approx(at3(b, l, node) - at3(a, l, node)).margin(1e-13));
+        }
+    // and the values are those of their own slopes
+    Lanes moved = at;
+    const double step = 1e-5 * h;
+    for (int l = 0; l < lanes; ++l)
+        moved.x[l] += step;
+    const auto c = weights<shape::CubicBSpline>(moved);
+    for (int l = 0; l < lanes; ++l)
+        for (int n = 0; n < 4; ++n)
+            if (c.base[l] == w.base[l])
+                CHECK((c.N[n][l] - w.N[n][l]) / step == Approx(0.5 * (c.G[n][l] + w.G[n][l])).margin(1e-8 / h));
+}
+
+TEST_CASE("beside a wall the cubic spline leaves out the node behind, keeps linear fields and joins smoothly")
+{
+    using shape::CubicBSpline;
+    const std::int32_t plane = 3;
+    for (const double side : {1.0, -1.0})
+    {
+        Lanes at = randomLanes(0.5, 0.5);
+        for (int l = 0; l < lanes; ++l)
+            at.x[l] = origin + h * (plane + side * (l + 0.25) / lanes);
+        at.x[60] = origin + h * plane;
+        at.x[62] = origin + h * (plane + side * (1 - 1e-13));
+        at.x[63] = origin + h * (plane + side * (1 + 1e-13));
+        auto w = weights<CubicBSpline>(at);
+        CubicBSpline::foldAtWall(at.x, origin, 1 / h, plane, w);
+        const auto of = [&](const double (&value)[4][lanes], int l, int node) {
+            const int n = node - w.base[l];
+            return n >= 0 && n < 4 ? value[n][l] : 0.0;
+        };
+        for (int l = 0; l < lanes - 1; ++l)
+        {
+            double sum = 0, slope = 0, first = 0;
+            for (int n = 0; n < 4; ++n)
+            {
+                CHECK(w.N[n][l] >= 0);
+                sum += w.N[n][l];
+                slope += w.G[n][l];
+                first += w.N[n][l] * (w.base[l] + n);
+            }
+            CHECK(sum == Approx(1).epsilon(1e-14));
+            CHECK(std::abs(slope) < 1e-13 / h);
+            CHECK(first == Approx((at.x[l] - origin) / h).epsilon(1e-14));
+            if (l != 60)
+                CHECK(of(w.N, l, plane - int(side)) == 0);
+        }
+        CHECK(of(w.N, 60, plane) == Approx(1).epsilon(1e-14)); // the field at the wall is its own node's
+        for (int node = plane - 3; node <= plane + 3; ++node)
+        {
+            CHECK(of(w.N, 62, node) == Approx(of(w.N, 63, node)).margin(1e-12));
+            CHECK(of(w.G, 62, node) * h == Approx(of(w.G, 63, node) * h).margin(1e-11));
+        }
+    }
 }
 
 TEST_CASE("quadratic splines are the mean of the hat over one cell")

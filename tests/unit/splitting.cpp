@@ -90,6 +90,22 @@ TEST_CASE("four-way splitting of a sheared particle")
     CHECK(s.ledger.splitAngularMomentum < 1e-11 * before.mass);
 }
 
+TEST_CASE("children follow the material points at the quarters of the parent's initial domain")
+{
+    auto s = one(2, {2.5, 0.3, 0.8, 0.9});
+    s.particles.enableX();
+    s.particles.X[0][0] = 7;
+    s.particles.X[1][0] = -3;
+    splitting::splitParticles(s, rule(splitting::Mode::fourWay), {});
+    const auto& p = s.particles;
+    REQUIRE(p.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) // x - x_parent = F (X - X_parent)
+        for (int a = 0; a < 2; ++a)
+            CHECK(p.x[a][i] - (a == 1 ? 10 : 0) ==
+                  Approx(p.F[2 * a][i] * (p.X[0][i] - 7) + p.F[2 * a + 1][i] * (p.X[1][i] + 3)).margin(1e-14));
+    CHECK(p.X[0][0] != p.X[0][1]);
+}
+
 TEST_CASE("edges at or under the threshold do not split")
 {
     auto s = one(2, {2, 0, 0, 2});

@@ -92,6 +92,31 @@ TEST_CASE("a state comes back bitwise, in 2D and 3D")
     }
 }
 
+TEST_CASE("columns that a case asks for come back too, and are absent where it does not")
+{
+    TemporaryFolder folder;
+    for (int dim : {2, 3})
+    {
+        auto state = sampleState(dim, 70);
+        writeState(folder / "0", state);
+        CHECK_FALSE(readState(folder / "0/state.h5").particles.hasX());
+        CHECK_FALSE(readState(folder / "0/state.h5").particles.hasAffine());
+        auto& p = state.particles;
+        p.enableX();
+        CHECK(p.X[0][69] == p.x[0][69]);
+        p.enableAffine();
+        for (int k = 0; k < dim * dim; ++k)
+            for (std::size_t i = 0; i < 70; ++i)
+            {
+                p.X[std::size_t(k % dim)][i] += 0.1 * double(i);
+                p.affine[std::size_t(k)][i] = double(k) - 0.3 * double(i);
+            }
+        p.padLastChunk();
+        writeState(folder / "1", state);
+        requireSameBits(readState(folder / "1/state.h5"), state);
+    }
+}
+
 TEST_CASE("an empty state and one without names come back")
 {
     TemporaryFolder folder;

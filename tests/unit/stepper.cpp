@@ -85,7 +85,7 @@ std::map<std::int64_t, std::vector<double>> byId(const state::Particles& p)
     return out;
 }
 
-const std::vector<std::string> shapes = {"linear", "uGIMP", "cpGIMP"};
+const std::vector<std::string> shapes = {"linear", "uGIMP", "cpGIMP", "CPDI", "cubicBSpline"};
 const std::vector<StressUpdate> updates = {StressUpdate::USF, StressUpdate::USL, StressUpdate::MUSL};
 } // namespace
 
@@ -114,6 +114,7 @@ TEST_CASE("momentum changes by the impulses of gravity and walls alone, the budg
     for (const auto& shape : shapes)
         for (const auto update : updates)
         {
+            CAPTURE(shape, int(update));
             auto s = column();
             const auto scene = columnScene(update);
             run(s, scene, shape, 400, 5e-4);

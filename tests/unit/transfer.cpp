@@ -1,6 +1,7 @@
 // Transfer between particles and nodes, chunk by chunk, against plain sums over pairs of a particle and a node, whose
 // weights are looked up axis by axis; conservation, linear fields, and projection as the adjoint of interpolation.
 #include "support/particleCloud.hpp"
+#include "transfer/affine.hpp"
 #include "transfer/gridToParticle.hpp"
 #include "transfer/particleToGrid.hpp"
 
@@ -305,7 +306,7 @@ template <int dim, class Shape>
 void checkBodyForce(const Cloud<dim, Shape>& c)
 {
     std::vector<Record> window(std::size_t(c.window.size()), Record{});
-    projectBodyForce(c.w, c.mass, c.b, c.count, window.data(), c.window);
+    transfer::projectBodyForce<dim>(c.w, c.mass, c.b, c.count, window.data(), c.window);
     double error = 0;
     c.forNodes([&](const LatticeNode& node, Index at) {
         const Record r = transfer::finishNode<dim>(window[std::size_t(at)]);
