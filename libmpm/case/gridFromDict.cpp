@@ -1,5 +1,6 @@
 #include "case/gridFromDict.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -17,6 +18,21 @@ constexpr double mostNodes = 1e12;  ///< what a state file holds and sort keys c
 std::string text(const Vector3& v)
 {
     return fmt::format("({:.10g} {:.10g} {:.10g})", v[0], v[1], v[2]);
+}
+
+std::array<bool, 3> readPeriodic(const dictionary::Dictionary& dict, int dim)
+{
+    std::array<bool, 3> periodic{};
+    if (!dict.found("periodic"))
+        return periodic;
+    for (const auto& axis : dict.get<std::vector<std::string>>({"periodic", "axes whose two sides are one"}))
+    {
+        const auto at = std::find(axisNames.begin(), axisNames.begin() + dim, axis) - axisNames.begin();
+        if (at == dim)
+            dict.fail("periodic", axis, dim == 2 ? "a list of x and y" : "a list of x, y and z");
+        periodic[std::size_t(at)] = true;
+    }
+    return periodic;
 }
 } // namespace
 
@@ -57,6 +73,7 @@ state::GridBox gridFromDict(const dictionary::Dictionary& dict)
         dict.fail("cellSize", fmt::format("{:.10g}, which makes {:.2g} nodes", h, nodes),
                   fmt::format("at most {:g} nodes in all", mostNodes));
     grid.h = (high[0] - low[0]) / double(grid.cells[0]);
+    grid.periodic = readPeriodic(dict, grid.dim);
     return grid;
 }
 } // namespace mpm::cases

@@ -2,6 +2,7 @@
 
 #include "case/gridFromDict.hpp"
 #include "case/makeStepper.hpp"
+#include "case/readSchemes.hpp"
 #include "constitutive/law.hpp"
 
 #include <algorithm>
@@ -191,6 +192,11 @@ nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::stri
         failUnknownPatch(all, name, state);
     wall.axis = plane.axis;
     wall.side = plane.side;
+    if (state.grid.periodic[std::size_t(plane.axis)])
+        throw InputError(all.where(name),
+                         fmt::format("{}: found a wall normal to {}, along which the grid is periodic; allowed: walls "
+                                     "normal to other axes, or no periodic in system/gridDict",
+                                     name, axisNames[std::size_t(plane.axis)]));
     const double index = (plane.position - state.grid.origin[plane.axis]) / state.grid.h;
     wall.plane = Index(std::lround(index));
     if (std::abs(index - double(wall.plane)) > 1e-6)
@@ -238,93 +244,6 @@ void readBoundaries(const Dictionary& d, const state::State& state, stepping::Sc
             failUnknownPatch(d, name, state);
         scene.loads.push_back(load);
     }
-}
-
-splitting::Rule readSplitRule(const Dictionary& d)
-{
-    splitting::Rule rule;
-    rule.threshold =
-        d.get<double>({"threshold", "longest edge, in seeding spacings", {}, {1, 1e300, true, false}, rule.threshold});
-    rule.mode = d.choose("mode", "which edges are halved",
-                         {{"fourWay", "all edges of a particle"}, {"stretched", "edges over the threshold"}},
-                         "fourWay") == "fourWay"
-                    ? splitting::Mode::fourWay
-                    : splitting::Mode::stretched;
-    rule.maxParticles = d.get<Index>({"maxParticles", "cap on their number", {}, Bound::atLeast(1), rule.maxParticles});
-    rule.maxGeneration =
-        int(d.get<Index>({"maxGeneration", "halvings of one particle", {}, Bound::between(0, 30), rule.maxGeneration}));
-    return rule;
-}
-
-splitting::Rule readSplitting(const Dictionary& d)
-{
-    splitting::Rule rule = readSplitRule(d);
-    rule.interval = d.get<Index>({"interval", "steps between checks", {}, Bound::atLeast(1), rule.interval});
-    return rule;
-}
-
-namespace
-{
-void readTransfer(const Dictionary& d, stepping::Scene& scene)
-{
-    using stepping::Transfer;
-    static const std::vector<std::pair<std::string, Transfer>> kinds{{"FLIP", Transfer::FLIP},
-                                                                     {"XPIC", Transfer::XPIC},
-                                                                     {"FMPM", Transfer::FMPM},
-                                                                     {"APIC", Transfer::APIC},
-                                                                     {"TPIC", Transfer::TPIC}};
-    const auto name = d.choose("transfer", "how velocities return to particles",
-                               {{"FLIP", "increments, with a rate of PIC"},
-                                {"XPIC", "velocities without what no grid sees"},
-                                {"FMPM", "the same with an approximate inverse of the full mass matrix"},
-                                {"APIC", "velocities and an affine field that keeps angular momentum"},
-                                {"TPIC", "velocities and their gradient"}},
-                               "FLIP");
-    for (const auto& [word, kind] : kinds)
-        if (word == name)
-            scene.transfer = kind;
-    if (scene.transfer == Transfer::FLIP)
-        scene.picRate = d.get<double>(
-            {"picRate", "share of PIC velocity mixed in per second", unit::rate, Bound::nonNegative(), 0.0});
-    else if (d.found("picRate"))
-        d.fail("picRate", "a rate of PIC with transfer " + name,
-               "it with FLIP only: " + name + " keeps nothing of the particles' own velocities");
-    const bool ordered = scene.transfer == Transfer::XPIC || scene.transfer == Transfer::FMPM;
-    if (ordered)
-        scene.transferOrder =
-            int(d.get<Index>({"order", "terms of the filter, 1: PIC", unit::none, Bound::between(1, 20), Index(2)}));
-    else if (d.found("order"))
-        d.fail("order", "an order with transfer " + name, "it with XPIC and FMPM only");
-}
-} // namespace
-
-std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
-{
-    const auto shape = d.choose("shape", "shape functions", shapeCatalogue(), "uGIMP");
-    const auto update = d.choose(
-        "stressUpdate", "when stress is updated",
-        {{"MUSL", "last, from a second projection"}, {"USL", "last, from v*"}, {"USF", "before the forces"}}, "MUSL");
-    scene.stressUpdate = update == "USF"   ? stepping::StressUpdate::USF
-                         : update == "USL" ? stepping::StressUpdate::USL
-                                           : stepping::StressUpdate::MUSL;
-    readTransfer(d, scene);
-    scene.staggeredStart =
-        d.get<bool>({"staggeredStart", "on: the first kick is half a step", unit::none, {}, false});
-    if (scene.staggeredStart && scene.stressUpdate == stepping::StressUpdate::USF)
-        d.fail("staggeredStart", "on with stressUpdate USF",
-               "USL or MUSL, or off: USF strains before its first kick, so that its stresses, not its velocities, would "
-               "start half a step off");
-    scene.sortInterval =
-        d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
-    if (const Dictionary* damping = d.findDict("damping", "force against the velocity"))
-    {
-        damping->choose("type", "what the force follows", {{"viscous", "mass and velocity: - m v/relaxationTime"}});
-        scene.relaxationTime = damping->get<double>(
-            {"relaxationTime", "time in which free momentum falls to 1/e", unit::time, Bound::positive()});
-    }
-    if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
-        scene.splitting = readSplitting(*splitting);
-    return shape;
 }
 
 namespace

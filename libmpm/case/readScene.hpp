@@ -8,16 +8,7 @@
 /// plane
 ///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
 ///     free.
-/// system/mpmSchemes:
-///     shape         uGIMP;      // uGIMP | cpGIMP | CPDI | quadraticBSpline | cubicBSpline | linear
-///     stressUpdate  MUSL;       // USF | USL | MUSL
-///     transfer      FLIP;       // FLIP | XPIC | FMPM | APIC | TPIC (stepping/velocityFilter.ipp, transfer/affine.hpp)
-///     picRate       0;          // FLIP: [1/s] share of PIC velocity mixed in per second
-///     order         2;          // XPIC, FMPM: terms of the filter; 1 is PIC
-///     staggeredStart off;       // on: the first kick is half a step, velocities live at t - dt/2 (not with USF)
-///     sortInterval  20;         // steps between sorts of the particles
-///     damping       { ... }     // nodal/damping.hpp; absent: none
-///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
+/// system/mpmSchemes: case/readSchemes.hpp
 #include "case/caseDirectory.hpp"
 #include "dictionary/dictionary.hpp"
 #include "stepping/stepper.hpp"
@@ -33,14 +24,6 @@ std::optional<Vector3> readGravity(const dictionary::Dictionary& g, int dim);
 /// Walls and loads. Patches give planes to boundaries named after them.
 void readBoundaries(const dictionary::Dictionary& boundaryConditions, const state::State& state,
                     stepping::Scene& scene);
-
-/// Shape's name; the rest goes into the scene.
-std::string readSchemes(const dictionary::Dictionary& mpmSchemes, const state::State& state, stepping::Scene& scene);
-
-/// The words solver and splitParticles share: threshold, mode, maxParticles, maxGeneration.
-splitting::Rule readSplitRule(const dictionary::Dictionary& splitting);
-/// The same and interval.
-splitting::Rule readSplitting(const dictionary::Dictionary& splitting);
 
 struct SceneOfCase
 {

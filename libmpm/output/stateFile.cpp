@@ -18,6 +18,7 @@ namespace
 {
 constexpr const char* formatName = "libmpm state";
 constexpr Index formatVersion = 2;
+constexpr const char* periodicAttribute[3] = {"periodicX", "periodicY", "periodicZ"};
 
 /// Columns side by side: row i holds column 0 to used - 1 of particle i.
 template <class T, std::size_t n>
@@ -87,6 +88,9 @@ void writeRoot(Hdf5File& file, const state::State& state)
     file.write<double>("/grid/origin", state.grid.origin, {3}, "m");
     file.write<Index>("/grid/cells", state.grid.cells, {3}, "1");
     file.setAttribute("/grid", "dimension", Index(state.grid.dim));
+    for (int a = 0; a < state.grid.dim; ++a)
+        if (state.grid.periodic[std::size_t(a)])
+            file.setAttribute("/grid", periodicAttribute[a], Index(1));
 }
 
 void readRoot(const Hdf5File& file, state::State& state)
@@ -105,6 +109,8 @@ void readRoot(const Hdf5File& file, state::State& state)
     std::copy(origin.begin(), origin.end(), state.grid.origin.begin());
     std::copy(cells.begin(), cells.end(), state.grid.cells.begin());
     state.grid.dim = int(file.integerAttribute("/grid", "dimension"));
+    for (int a = 0; a < 3; ++a)
+        state.grid.periodic[std::size_t(a)] = file.hasAttribute("/grid", periodicAttribute[a]);
 }
 
 void writeParticles(Hdf5File& file, const state::Particles& p)

@@ -12,6 +12,8 @@ struct GridBox
     Vector3 origin{};             ///< lower corner [m]
     double h = 0;                 ///< cell size [m]
     std::array<Index, 3> cells{}; ///< number of cells an axis (1 along unused axes)
+    /// Are the two sides of an axis one? Node cells[a] is node 0 then, and what leaves on one side enters on the other.
+    std::array<bool, 3> periodic{};
 
     double upper(int axis) const { return origin[axis] + h * double(cells[axis]); }
     bool contains(const Vector3& p) const

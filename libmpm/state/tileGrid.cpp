@@ -1,11 +1,16 @@
 #include "state/tileGrid.hpp"
 
+#include <tuple>
+
 namespace mpm::state
 {
 TileLayout::TileLayout(const GridBox& grid) : dim_(grid.dim), bits_(bitsOf(grid.dim))
 {
     for (int a = 0; a < dim_; ++a)
+    {
         boxes_[a] = box(grid.cells[a] + (Index(1) << bits_)) + 1;
+        period_[a] = grid.periodic[a] ? grid.cells[a] : 0;
+    }
 }
 
 Index TileLayout::key(const std::array<Index, 3>& base) const
@@ -91,53 +96,96 @@ void TileGrid::findTiles(const Particles& particles, int below, int above)
         windows_.resize(records + records / 8);
 }
 
+namespace
+{
+/// Moves by whole periods that bring part of a window among the nodes of one period.
+std::vector<std::array<Index, 3>> movesOf(const NodeBox& window, const TileLayout& layout)
+{
+    std::array<Index, 3> least{}, most{};
+    for (int a = 0; a < layout.dim(); ++a)
+        if (const Index period = layout.period(a))
+        {
+            const auto down = [&](Index i) { return (i >= 0 ? i : i - period + 1) / period; };
+            least[a] = -down(window.lo[a] + window.n[a] - 1);
+            most[a] = -down(window.lo[a]);
+        }
+    std::vector<std::array<Index, 3>> moves;
+    for (Index k = least[2]; k <= most[2]; ++k)
+        for (Index j = least[1]; j <= most[1]; ++j)
+            for (Index i = least[0]; i <= most[0]; ++i)
+                moves.push_back({i * layout.period(0), j * layout.period(1), k * layout.period(2)});
+    return moves;
+}
+
+/// The nodes a block may have: its box, within one period.
+NodeBox nodesOf(const TileLayout& layout, Index key)
+{
+    NodeBox box;
+    box.lo = layout.firstNode(key);
+    box.n = {1, 1, 1};
+    for (int a = 0; a < layout.dim(); ++a)
+    {
+        box.n[a] = Index(1) << layout.bits();
+        if (const Index period = layout.period(a))
+        {
+            const Index end = std::min(box.lo[a] + box.n[a], period);
+            box.lo[a] = std::max<Index>(box.lo[a], 0);
+            box.n[a] = std::max<Index>(0, end - box.lo[a]);
+        }
+    }
+    return box;
+}
+} // namespace
+
 void TileGrid::findBlocks()
 {
     const TileLayout& layout = layout_.front();
-    struct Overlap
+    struct Meeting
     {
-        Index key, tile;
+        Index key;
+        Overlap overlap;
     };
-    std::vector<Overlap> overlaps;
+    std::vector<Meeting> overlaps;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
-    {
-        const NodeBox& w = tiles_[t].window;
-        std::array<Index, 3> low{}, high{};
-        for (int a = 0; a < layout.dim(); ++a)
+        for (const auto& move : movesOf(tiles_[t].window, layout))
         {
-            low[a] = layout.box(w.lo[a]);
-            high[a] = layout.box(w.lo[a] + w.n[a] - 1);
+            const NodeBox w = tiles_[t].window.moved(move);
+            std::array<Index, 3> low{}, high{};
+            for (int a = 0; a < layout.dim(); ++a)
+            {
+                const Index period = layout.period(a), last = w.lo[a] + w.n[a] - 1;
+                low[a] = layout.box(period ? std::max<Index>(w.lo[a], 0) : w.lo[a]);
+                high[a] = layout.box(period ? std::min(last, period - 1) : last);
+            }
+            for (Index k = low[2]; k <= high[2]; ++k)
+                for (Index j = low[1]; j <= high[1]; ++j)
+                    for (Index i = low[0]; i <= high[0]; ++i)
+                        overlaps.push_back({layout.boxKey({i, j, k}), {Index(t), 0, move}});
         }
-        for (Index k = low[2]; k <= high[2]; ++k)
-            for (Index j = low[1]; j <= high[1]; ++j)
-                for (Index i = low[0]; i <= high[0]; ++i)
-                    overlaps.push_back({layout.boxKey({i, j, k}), Index(t)});
-    }
-    std::sort(overlaps.begin(), overlaps.end(),
-              [](const Overlap& a, const Overlap& b) { return a.key != b.key ? a.key < b.key : a.tile < b.tile; });
+    std::sort(overlaps.begin(), overlaps.end(), [](const Meeting& a, const Meeting& b) {
+        return std::tie(a.key, a.overlap.tile, a.overlap.move) < std::tie(b.key, b.overlap.tile, b.overlap.move);
+    });
     blocks_.clear();
     std::size_t records = 0;
     for (std::size_t o = 0; o < overlaps.size();)
     {
         Block block;
         block.key = overlaps[o].key;
-        NodeBox whole;
-        whole.lo = layout.firstNode(block.key);
-        whole.n = {1, 1, 1};
-        for (int a = 0; a < layout.dim(); ++a)
-            whole.n[a] = Index(1) << layout.bits();
+        const NodeBox whole = nodesOf(layout, block.key);
         std::array<Index, 3> low{}, end{};
         for (; o < overlaps.size() && overlaps[o].key == block.key; ++o)
         {
-            Tile& tile = tiles_[std::size_t(overlaps[o].tile)];
-            const NodeBox both = whole.common(tile.window);
+            Overlap overlap = overlaps[o].overlap;
+            overlap.block = Index(blocks_.size());
+            Tile& tile = tiles_[std::size_t(overlap.tile)];
+            const NodeBox both = whole.common(tile.window.moved(overlap.move));
             for (int a = 0; a < 3; ++a)
             {
                 low[a] = block.tiles.empty() ? both.lo[a] : std::min(low[a], both.lo[a]);
                 end[a] = block.tiles.empty() ? both.lo[a] + both.n[a] : std::max(end[a], both.lo[a] + both.n[a]);
             }
-            block.tiles.push_back(overlaps[o].tile);
-            tile.blocks.push_back(Index(blocks_.size()));
+            block.tiles.push_back(overlap);
+            tile.blocks.push_back(overlap);
         }
         for (int a = 0; a < 3; ++a)
         {
@@ -157,15 +205,18 @@ Record* TileGrid::find(Index i, Index j, Index k)
     if (layout_.empty())
         return nullptr;
     const TileLayout& layout = layout_.front();
-    const std::array<Index, 3> node{i, j, k};
-    std::array<Index, 3> box{};
+    std::array<Index, 3> node{i, j, k}, box{};
     for (int a = 0; a < layout.dim(); ++a)
+    {
+        if (const Index period = layout.period(a))
+            node[a] = ((node[a] % period) + period) % period;
         box[a] = layout.box(node[a]);
+    }
     const Index key = layout.boxKey(box);
     const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), key,
                                         [](const Block& b, Index wanted) { return b.key < wanted; });
-    if (found == blocks_.end() || found->key != key || !found->box.contains(i, j, k))
+    if (found == blocks_.end() || found->key != key || !found->box.contains(node[0], node[1], node[2]))
         return nullptr;
-    return nodes(*found) + found->box.offset(i, j, k);
+    return nodes(*found) + found->box.offset(node[0], node[1], node[2]);
 }
 } // namespace mpm::state

@@ -6,6 +6,9 @@
 /// Sums are taken in an order the particles' keys fix, so they do not depend on the number of threads. Tiles and blocks
 /// exist only where particles are: memory and time follow the material, not the box of the grid.
 ///
+/// Where an axis is periodic, nodes are those of one period, and a window that reaches beyond it overlaps their blocks
+/// after a move by whole periods.
+///
 /// Windows leave a margin of one cell for motion between two sorts; a particle that leaves its window calls for a sort
 /// (stepping/explicitStepper.hpp). Verified in tests/unit/tileGrid.cpp.
 #include "base/alignedVector.hpp"
@@ -35,6 +38,8 @@ class TileLayout
     int bits() const { return bits_; }
     /// Index of the box that holds lattice index i along an axis.
     Index box(Index i) const { return (i >> bits_) + 1; }
+    /// Nodes after which an axis repeats itself; 0 where it does not.
+    Index period(int axis) const { return period_[std::size_t(axis)]; }
     Index boxKey(const std::array<Index, 3>& box) const { return (box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0]; }
     std::array<Index, 3> firstNode(Index boxKey) const;
 
@@ -42,7 +47,7 @@ class TileLayout
 
   private:
     int dim_, bits_;
-    std::array<Index, 3> boxes_{1, 1, 1};
+    std::array<Index, 3> boxes_{1, 1, 1}, period_{};
 };
 
 /// Added to the key of particles made since the last sort: they stand behind all others, in tiles of their own.
@@ -58,6 +63,13 @@ struct NodeBox
     {
         return i >= lo[0] && i < lo[0] + n[0] && j >= lo[1] && j < lo[1] + n[1] && k >= lo[2] && k < lo[2] + n[2];
     }
+    NodeBox moved(const std::array<Index, 3>& by) const
+    {
+        NodeBox box = *this;
+        for (int a = 0; a < 3; ++a)
+            box.lo[a] += by[a];
+        return box;
+    }
     /// The nodes both boxes hold; empty boxes have n = 0 somewhere.
     NodeBox common(const NodeBox& o) const
     {
@@ -71,20 +83,27 @@ struct NodeBox
     }
 };
 
+/// A tile's window over a block: the window's nodes are the block's after a move by whole periods.
+struct Overlap
+{
+    Index tile = 0, block = 0;
+    std::array<Index, 3> move{};
+};
+
 struct Tile
 {
     Index first = 0, count = 0; ///< its particles
     NodeBox window;             ///< nodes they may reach
     std::size_t start = 0;      ///< of the window in the windows' memory, in records
-    std::vector<Index> blocks;  ///< blocks its window overlaps
+    std::vector<Overlap> blocks; ///< blocks its window overlaps
 };
 
 struct Block
 {
     Index key = 0;
     NodeBox box;
-    std::size_t start = 0;    ///< of its nodes in the nodes' memory
-    std::vector<Index> tiles; ///< tiles whose windows overlap it, ascending
+    std::size_t start = 0;      ///< of its nodes in the nodes' memory
+    std::vector<Overlap> tiles; ///< tiles whose windows overlap it, ascending
 };
 
 class TileGrid
@@ -126,15 +145,16 @@ class TileGrid
     template <class R, class Add>
     void forEachWindow(const Block& block, Index j, Index k, Add&& add)
     {
-        for (const Index t : block.tiles)
+        for (const Overlap& overlap : block.tiles)
         {
-            const Tile& tile = tiles_[std::size_t(t)];
-            const Index i0 = std::max(block.box.lo[0], tile.window.lo[0]);
-            const Index i1 = std::min(block.box.lo[0] + block.box.n[0], tile.window.lo[0] + tile.window.n[0]);
-            if (i0 >= i1 || !tile.window.contains(i0, j, k))
+            const Tile& tile = tiles_[std::size_t(overlap.tile)];
+            const NodeBox nodes = tile.window.moved(overlap.move);
+            const Index i0 = std::max(block.box.lo[0], nodes.lo[0]);
+            const Index i1 = std::min(block.box.lo[0] + block.box.n[0], nodes.lo[0] + nodes.n[0]);
+            if (i0 >= i1 || !nodes.contains(i0, j, k))
                 continue;
-            const R* row = window<R>(tile) + tile.window.offset(i0, j, k);
-            prefetch(row + tile.window.n[0], i1 - i0);
+            const R* row = window<R>(tile) + nodes.offset(i0, j, k);
+            prefetch(row + nodes.n[0], i1 - i0);
             add(i0, i1, row);
         }
     }
@@ -143,15 +163,15 @@ class TileGrid
     template <class R, class Repack>
     void copyToWindow(const Tile& tile, R* out, Repack&& repack, int layer = 0) const
     {
-        for (const Index b : tile.blocks)
+        for (const Overlap& overlap : tile.blocks)
         {
-            const Block& block = blocks_[std::size_t(b)];
-            const NodeBox both = tile.window.common(block.box);
+            const Block& block = blocks_[std::size_t(overlap.block)];
+            const NodeBox window = tile.window.moved(overlap.move), both = window.common(block.box);
             for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
                 for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
                 {
                     const Record* from = nodes(block, layer) + block.box.offset(both.lo[0], j, k);
-                    R* to = out + tile.window.offset(both.lo[0], j, k);
+                    R* to = out + window.offset(both.lo[0], j, k);
                     prefetch(from + block.box.n[0], both.n[0]);
                     for (Index i = 0; i < both.n[0]; ++i)
                         to[i] = repack(from[i]);

@@ -115,6 +115,7 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::sortAnew()
 {
     Clock clock(times_.sort);
+    wrapPositions(state_);
     sortByPosition(state_, layout_, Narrow::nodes);
     buildTiles();
 }
@@ -200,6 +201,8 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
         for (int a = 0; a < dim; ++a)
             std::swap(state_.particles.x[a], next_[a]);
     book(pass);
+    if (pass.moves && stray_)
+        wrapPositions(state_);
 }
 
 template <int dim, class Shape>

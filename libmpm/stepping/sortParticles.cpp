@@ -30,6 +30,25 @@ void sortByStoredKeys(state::State& state)
         state.particles.padLastChunk();
 }
 
+void wrapPositions(state::State& state)
+{
+    const auto& grid = state.grid;
+    for (int a = 0; a < grid.dim; ++a)
+    {
+        const double low = grid.origin[a], high = grid.upper(a), length = high - low;
+        if (!grid.periodic[a])
+            continue;
+        for (Index i = 0; i < state.particles.size(); ++i)
+        {
+            double& x = state.particles.x[a][std::size_t(i)];
+            if (x < low && x > low - length)
+                x += length;
+            else if (x >= high && x < high + length)
+                x -= length;
+        }
+    }
+}
+
 void sortByPosition(state::State& state, const state::TileLayout& layout, int supportNodes)
 {
     auto& p = state.particles;

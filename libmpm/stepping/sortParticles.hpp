@@ -12,6 +12,8 @@ void sortByPosition(state::State& state, const state::TileLayout& layout, int su
 /// Keys for particles made since the last sort (those with the largest key there is), and sort these alone, behind all
 /// others. Sorts by position once more than one particle in eight is loose.
 void sortLoose(state::State& state, const state::TileLayout& layout, int supportNodes);
+/// What has left the box through a periodic side enters through the other one.
+void wrapPositions(state::State& state);
 /// Sort by the keys the state carries (after loading).
 void sortByStoredKeys(state::State& state);
 } // namespace mpm::stepping

@@ -75,10 +75,10 @@ TEST_CASE("blocks sum every window that reaches them, and windows read back what
                 for (Index i = i0; i < i1; ++i)
                     sum[std::size_t(i - block.box.lo[0])] += in[i - i0][3];
             });
-            for (const Index t : block.tiles)
+            for (const auto& overlap : block.tiles)
             {
-                CHECK(t > last);
-                last = t;
+                CHECK(overlap.tile > last);
+                last = overlap.tile;
             }
             for (Index i = block.box.lo[0]; i < block.box.lo[0] + block.box.n[0]; ++i)
             {

@@ -50,6 +50,9 @@ double growth(stepping::Stepper& stepper, state::Particles& p, double dt, double
         for (int k = 0; k < stressComponents(p.dim); ++k)
             for (double& s : p.stress[k])
                 s *= start / now;
+        for (auto& column : p.affine)
+            for (double& c : column)
+                c *= start / now;
         stepper.particlesChanged();
         grown += n >= steps - counted ? std::log(now / start) : 0;
     }
@@ -135,6 +138,8 @@ struct FreeBlock
     Index perCell = 2;
     double disorder = 0;
     unsigned seed = 1;
+    stepping::Transfer transfer = stepping::Transfer::FLIP;
+    int order = 2;
 };
 
 /// Growth per step of the free motion of the linearised step.
@@ -157,6 +162,8 @@ double growth(const FreeBlock& block, double courant)
     stepping::Scene scene;
     scene.materials = {scenes::elastic(modulus, block.poisson, density)};
     scene.stressUpdate = block.update;
+    scene.transfer = block.transfer;
+    scene.transferOrder = block.order;
     scene.sortInterval = 1 << 30;
     auto& p = s.particles;
     for (Index i = 0; i < p.size(); ++i)
@@ -186,7 +193,7 @@ double critical(const FreeBlock& block)
 TEST_CASE("free blocks in two and three dimensions bear the solver's bounds")
 {
     for (const int dim : {2, 3})
-        for (const char* shape : {"linear", "uGIMP", "cpGIMP", "quadraticBSpline"})
+        for (const char* shape : {"linear", "uGIMP", "cpGIMP", "quadraticBSpline", "cubicBSpline", "CPDI"})
             for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
             {
                 if (std::string(shape) == "linear" && update == StressUpdate::USL)
@@ -210,5 +217,26 @@ TEST_CASE("free blocks in two and three dimensions bear the solver's bounds")
                     fmt::print(
                         "{}D {:>16} {:<4}: the solver allows {:.2f}; two particles a cell bear {:.2f} and more\n", dim,
                         shape, stepping::stressUpdateName(update), bound, least);
+            }
+}
+
+TEST_CASE("transfers that keep less of the particles' velocities bear the bounds of FLIP")
+{
+    using stepping::Transfer;
+    const std::vector<std::tuple<const char*, Transfer, int>> transfers = {
+        {"XPIC 2", Transfer::XPIC, 2}, {"XPIC 5", Transfer::XPIC, 5}, {"FMPM 2", Transfer::FMPM, 2},
+        {"FMPM 5", Transfer::FMPM, 5}, {"APIC", Transfer::APIC, 0},   {"TPIC", Transfer::TPIC, 0}};
+    for (const auto& [name, transfer, order] : transfers)
+        for (const char* shape : {"linear", "uGIMP", "CPDI", "quadraticBSpline", "cubicBSpline"})
+            for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
+            {
+                double least = 9;
+                for (const Index perCell : {1, 2, 3})
+                    for (const double disorder : {0.0, 0.5})
+                        least = std::min(least, critical({2, shape, update, 0.3, perCell, disorder,
+                                                          unsigned(1 + perCell + 100 * disorder), transfer, order}));
+                const double bound = stepping::criticalCourant(2, std::string(shape) != "linear", update, 1);
+                fmt::print("2D {:>16} {:<4} {}: the solver allows {:.2f}; blocks bear {:.2f} and more\n", shape,
+                           stepping::stressUpdateName(update), name, bound, least);
             }
 }

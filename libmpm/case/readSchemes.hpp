@@ -1,0 +1,27 @@
+#pragma once
+/// From system/mpmSchemes to the scene a stepper works on.
+///
+///     shape         uGIMP;      // uGIMP | cpGIMP | CPDI | quadraticBSpline | cubicBSpline | linear
+///     stressUpdate  MUSL;       // USF | USL | MUSL
+///     transfer      FLIP;       // FLIP | XPIC | FMPM | APIC | TPIC (stepping/velocityFilter.ipp, transfer/affine.hpp)
+///     picRate       0;          // FLIP: [1/s] share of PIC velocity mixed in per second
+///     order         2;          // XPIC, FMPM: terms of the filter; 1 is PIC
+///     staggeredStart off;       // on: the first kick is half a step, velocities live at t - dt/2 (not with USF)
+///     sortInterval  20;         // steps between sorts of the particles
+///     damping       { ... }     // nodal/damping.hpp; absent: none
+///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
+/// Combinations that make no sense are refused with the reason.
+#include "dictionary/dictionary.hpp"
+#include "stepping/stepper.hpp"
+
+namespace mpm::cases
+{
+/// Shape's name; the rest goes into the scene.
+std::string readSchemes(const dictionary::Dictionary& mpmSchemes, stepping::Scene& scene);
+
+/// The words solver and splitParticles share: threshold, mode, maxParticles, maxGeneration.
+splitting::Rule readSplitRule(const dictionary::Dictionary& splitting);
+/// The same and interval.
+splitting::Rule readSplitting(const dictionary::Dictionary& splitting);
+
+} // namespace mpm::cases
