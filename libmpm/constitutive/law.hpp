@@ -3,12 +3,14 @@
 ///
 /// The stepper has rotated the stress by dR (METHOD: dR = (I - dt W/2)^-1 (I + dt W/2)); the law adds C : dStrain and
 /// returns to its yield surface. One virtual call per chunk, a vector loop over lanes inside: no branch per particle.
+/// A hyperelastic law makes the stress anew from the deformation gradient instead.
 ///
 /// To add a law: one header with its equation and a dictionary example, one source, one line in lawCatalogue.cpp, one
 /// unit test.
-#include "base/types.hpp"
+#include "constitutive/kinematics.hpp"
 #include "dictionary/dictionary.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +38,7 @@ struct Chunk
     int count = lanes;
     alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
     alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
+    const TensorLanes<dim>* F = nullptr;   ///< in: deformation gradient at the end of the step; hyperelastic laws need it
     /// out: plastic work (sigma_start + sigma_end)/2 : dEps_p per current volume [J/m^3], so that elastic + plastic
     /// adds up to the work of the mid-step stress
     alignas(64) double plasticWork[lanes];
@@ -48,6 +51,8 @@ struct Chunk
     alignas(64) Region region[lanes]; ///< out: where each lane ended
     int apexReturns = 0;              ///< out: lanes below `count` that ended at the apex
 };
+
+class Hyperelastic;
 
 class Law
 {
@@ -73,7 +78,36 @@ class Law
     }
     /// Can the law yield at all? (The monitor asks.)
     virtual bool plastic() const { return false; }
+    /// The law if its stress is a function of the deformation gradient, else null.
+    virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };
+
+/// A law whose stress follows from a strain energy W(F) per initial volume: sigma = dW/dF F^T/det F. Reads Chunk::F, and
+/// neither the stress at the start nor the strain increment; nothing drifts, and no stress is left where F = I.
+class Hyperelastic : public Law
+{
+  public:
+    const Hyperelastic* hyperelastic() const final { return this; }
+
+    /// W(F) [J/m^3] in every lane.
+    virtual void strainEnergy(const TensorLanes<2>& F, double (&energy)[lanes]) const = 0;
+    virtual void strainEnergy(const TensorLanes<3>& F, double (&energy)[lanes]) const = 0;
+    /// A bound of the fastest wave in the deformed body: its speed in space squared over waveModulus()/rho_0, that is
+    /// the largest eigenvalue of Q_ac = d^2W/(dF_aB dF_cD) m_B m_D, m = F^T n, over unit vectors n, over waveModulus().
+    virtual void waveFactor(const TensorLanes<2>& F, double (&factor)[lanes]) const = 0;
+    virtual void waveFactor(const TensorLanes<3>& F, double (&factor)[lanes]) const = 0;
+};
+
+/// What elastic laws report of plasticity: nothing.
+template <int dim>
+void reportElastic(Chunk<dim>& chunk)
+{
+    std::fill_n(chunk.plasticWork, lanes, 0.0);
+    std::fill_n(chunk.apexStrain, lanes, 0.0);
+    std::fill_n(chunk.yield, lanes, 0.0);
+    std::fill_n(chunk.region, lanes, Region::elastic);
+    chunk.apexReturns = 0;
+}
 
 /// 1/2 sigma : C^-1 : sigma of an isotropic elastic solid [J/m^3]; components in storage order (4 or 6).
 template <int dim>

@@ -1,5 +1,9 @@
+#include "constitutive/hencky.hpp"
 #include "constitutive/linearElastic.hpp"
 #include "constitutive/mohrCoulomb.hpp"
+#include "constitutive/neoHookean.hpp"
+#include "constitutive/smallStrain.hpp"
+#include "constitutive/vonMises.hpp"
 
 namespace mpm::constitutive
 {
@@ -14,6 +18,10 @@ const std::vector<dictionary::Choice>& lawCatalogue()
     static const std::vector<dictionary::Choice> laws = {
         {"linearElastic", "isotropic linear elasticity in rate form"},
         {"mohrCoulomb", "elastic, perfectly plastic Mohr-Coulomb with its own dilation angle"},
+        {"neoHookean", "hyperelastic, W = mu/2 (tr F F^T - 3) - mu ln J + lambda/2 ln^2 J"},
+        {"hencky", "hyperelastic, Kirchhoff stress linear in the logarithmic strain"},
+        {"smallStrain", "hyperelastic, nominal stress linear in the stretch (in the displacement gradient)"},
+        {"vonMises", "elastic, perfectly plastic von Mises"},
     };
     return laws;
 }
@@ -23,6 +31,14 @@ std::unique_ptr<Law> makeLaw(const dictionary::Dictionary& material)
     const std::string law = material.choose("law", "material law", lawCatalogue());
     if (law == "mohrCoulomb")
         return std::make_unique<MohrCoulomb>(MohrCoulomb::read(material));
+    if (law == "neoHookean")
+        return std::make_unique<NeoHookean>(NeoHookean::read(material));
+    if (law == "hencky")
+        return std::make_unique<Hencky>(Hencky::read(material));
+    if (law == "smallStrain")
+        return std::make_unique<SmallStrain>(SmallStrain::read(material));
+    if (law == "vonMises")
+        return std::make_unique<VonMises>(VonMises::read(material));
     return std::make_unique<LinearElastic>(LinearElastic::read(material));
 }
 } // namespace mpm::constitutive

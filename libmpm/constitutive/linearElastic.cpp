@@ -13,11 +13,7 @@ void updateElastic(Chunk<dim>& chunk, const ElasticModuli& moduli)
     alignas(64) double trial[stressSize<dim>][lanes];
     elasticTrial<dim>(chunk, moduli, trial);
     std::copy(&trial[0][0], &trial[0][0] + stressSize<dim> * lanes, &chunk.stress[0][0]);
-    std::fill(chunk.plasticWork, chunk.plasticWork + lanes, 0.0);
-    std::fill(chunk.apexStrain, chunk.apexStrain + lanes, 0.0);
-    std::fill(chunk.yield, chunk.yield + lanes, 0.0);
-    std::fill(chunk.region, chunk.region + lanes, Region::elastic);
-    chunk.apexReturns = 0;
+    reportElastic(chunk);
 }
 } // namespace
 

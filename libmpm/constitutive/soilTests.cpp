@@ -34,10 +34,11 @@ SymmetricTensor confined(const SoilTest& test, double ratio)
 /// The lateral strain increment at which the lateral stress is that of the cell. The stress grows with the strain, by
 /// pieces linearly: a secant step lands on the root once both points lie on its piece; a bracket keeps it from
 /// straying.
-SymmetricTensor lateralIncrement(const Law& law, const SymmetricTensor& stress, double axial, double cell)
+SymmetricTensor lateralIncrement(const Law& law, const SymmetricTensor& stress, const SymmetricTensor& strain,
+                                 double axial, double cell)
 {
     const auto strains = [axial](double x) { return SymmetricTensor{x, axial, x, 0, 0, 0}; };
-    const auto excess = [&](double x) { return updatePoint(law, stress, strains(x)).stress[0] + cell; };
+    const auto excess = [&](double x) { return updatePoint(law, stress, strains(x), strain).stress[0] + cell; };
     const double nu = law.poissonRatio();
     const double size = std::max(cell, std::abs(stress[1])) + law.waveModulus() * std::abs(axial);
 
@@ -63,6 +64,31 @@ SymmetricTensor lateralIncrement(const Law& law, const SymmetricTensor& stress, 
     return strains(std::abs(fLow) < std::abs(fHigh) ? low : high);
 }
 
+/// The strain (lateral, axial, lateral) from F = I to a confined stress: Newton's iteration with differences.
+SymmetricTensor strainAt(const Law& law, const SymmetricTensor& stress)
+{
+    double lateral = 0, axial = 0;
+    const auto stressAt = [&](double x, double y) { return updatePoint(law, {}, {x, y, x, 0, 0, 0}).stress; };
+    const double size = std::max(std::abs(stress[0]), std::abs(stress[1])), d = 1e-7;
+    for (int i = 0; i < 50; ++i)
+    {
+        const auto s = stressAt(lateral, axial);
+        const double fx = s[0] - stress[0], fy = s[1] - stress[1];
+        if (std::abs(fx) <= 1e-13 * size && std::abs(fy) <= 1e-13 * size)
+            break;
+        const auto dx = stressAt(lateral + d, axial), dy = stressAt(lateral, axial + d);
+        const double xx = (dx[0] - s[0]) / d, xy = (dy[0] - s[0]) / d, yx = (dx[1] - s[1]) / d, yy = (dy[1] - s[1]) / d;
+        const double det = xx * yy - xy * yx;
+        if (i == 49 || !std::isfinite(det) || det == 0)
+            throw InputError(fmt::format("{}: found no strain with the stress at the start, {:g} Pa along y and {:g} Pa "
+                                         "across; allowed is less",
+                                         law.name(), stress[1], stress[0]));
+        lateral -= (yy * fx - xy * fy) / det;
+        axial -= (xx * fy - yx * fx) / det;
+    }
+    return {lateral, axial, lateral, 0, 0, 0};
+}
+
 std::vector<SoilTestPoint> followTable(const Law& law, const SoilTest& test)
 {
     const CsvTable table = CsvTable::read(test.path);
@@ -77,14 +103,15 @@ std::vector<SoilTestPoint> followTable(const Law& law, const SoilTest& test)
         for (int k = 0; k < 6; ++k)
             strain[k] = table.number(row, columns[k]);
         if (points.empty())
-            points.push_back({strain, test.startStress, Region::elastic, 0});
+            points.push_back({strain, law.hyperelastic() ? updatePoint(law, {}, strain).stress : test.startStress,
+                              Region::elastic, 0});
         else
             for (Index i = 0; i < test.steps; ++i)
             {
                 SymmetricTensor dStrain;
                 for (int k = 0; k < 6; ++k)
                     dStrain[k] = (strain[k] - former[k]) / double(test.steps);
-                append(points, dStrain, updatePoint(law, points.back().stress, dStrain));
+                append(points, dStrain, updatePoint(law, points.back().stress, dStrain, points.back().strain));
             }
         former = points.back().strain = strain;
     }
@@ -106,7 +133,7 @@ const std::vector<dictionary::Choice>& soilTestCatalogue()
 
 std::string soilTestHelp()
 {
-    std::string text = "Paths (small strains, fixed axes, tension positive):\n";
+    std::string text = "Paths (fixed axes, tension positive; large strains: logarithmic):\n";
     for (const auto& test : soilTestCatalogue())
         text += fmt::format("  {:<12} {}\n", test.name, test.help);
     return text +
@@ -155,7 +182,7 @@ const Dictionary& lawDictionary(const Dictionary& file, const std::string& mater
     return file.subDict(material.empty() ? names.front() : material);
 }
 
-SoilTest readSoilTest(const Dictionary& law, const std::string& path, double poisson)
+SoilTest readSoilTest(const Dictionary& law, const std::string& path, double poisson, bool hyperelastic)
 {
     const Dictionary none;
     const Dictionary* given = law.findDict("test", "set-up of the test driveLaw does");
@@ -190,6 +217,8 @@ SoilTest readSoilTest(const Dictionary& law, const std::string& path, double poi
                                                         unit::pressure, Bound::any(), std::vector<double>(6, 0.0)});
         if (values.size() != 6)
             d.fail("startStress", fmt::format("{} numbers", values.size()), "6, (xx yy zz xy yz zx)");
+        if (hyperelastic && values != std::vector<double>(6, 0.0))
+            d.fail("startStress", "a stress", "zero: the stress of this law follows from the strains of the table");
         std::copy(values.begin(), values.end(), test.startStress.begin());
     });
     return test;
@@ -202,15 +231,16 @@ std::vector<SoilTestPoint> runSoilTest(const Law& law, const SoilTest& test)
         return followTable(law, test);
 
     std::vector<SoilTestPoint> points;
-    points.push_back({{}, confined(test, triaxial ? 1 : test.K0), Region::elastic, 0});
+    const SymmetricTensor start = confined(test, triaxial ? 1 : test.K0);
+    points.push_back({law.hyperelastic() ? strainAt(law, start) : SymmetricTensor{}, start, Region::elastic, 0});
     const double step = test.maxStrain / double(test.steps);
     for (Index i = 0; i < test.steps; ++i)
     {
-        const auto& stress = points.back().stress;
-        const SymmetricTensor dStrain = triaxial    ? lateralIncrement(law, stress, -step, test.confiningStress)
+        const auto& [strain, stress, region, work] = points.back();
+        const SymmetricTensor dStrain = triaxial    ? lateralIncrement(law, stress, strain, -step, test.confiningStress)
                                         : oedometer ? SymmetricTensor{0, -step, 0, 0, 0, 0}
                                                     : SymmetricTensor{0, 0, 0, 0.5 * step, 0, 0};
-        append(points, dStrain, updatePoint(law, stress, dStrain));
+        append(points, dStrain, updatePoint(law, stress, dStrain, strain));
     }
     return points;
 }

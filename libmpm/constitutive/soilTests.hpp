@@ -6,9 +6,10 @@
 ///     simpleShear  shear strain in the x-y plane, normal strains zero
 ///     FILE         total strains of a table with columns exx, eyy, ezz, exy, eyz, ezx (tensor components)
 ///
-/// Small strains in fixed material axes; tension positive, so a compressed specimen shows negative stresses. The
-/// incremental law is driven step by step; the triaxial test solves for the lateral strain of each step by a
-/// safeguarded secant iteration on the lateral stress, to 1e-12 of the stress.
+/// Strains in fixed material axes, of large paths logarithmic ones; tension positive, so a compressed specimen shows
+/// negative stresses. The law is driven step by step; the triaxial test solves for the lateral strain of each step by a
+/// safeguarded secant iteration on the lateral stress, to 1e-12 of the stress. A hyperelastic law gets F = exp(strain)
+/// and reaches the stress at the start by a strain from F = I, which its strains include.
 ///
 /// A law file holds one material, as constant/materialProperties does (its density and initial state are left alone),
 /// at its top level or in a dictionary of its own, and may add the set-up of the test:
@@ -61,7 +62,9 @@ std::string requireSoilTest(const std::string& path);
 const dictionary::Dictionary& lawDictionary(const dictionary::Dictionary& file, const std::string& material = "");
 
 /// The set-up: the words of test {} with their defaults for this path. `path` is a test's name or a file.
-SoilTest readSoilTest(const dictionary::Dictionary& law, const std::string& path, double poisson);
+/// startStress is refused where it has no meaning.
+SoilTest readSoilTest(const dictionary::Dictionary& law, const std::string& path, double poisson,
+                      bool hyperelastic = false);
 
 /// The first point is the start.
 std::vector<SoilTestPoint> runSoilTest(const Law& law, const SoilTest& test);

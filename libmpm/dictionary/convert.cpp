@@ -79,7 +79,8 @@ T Dictionary::get(const Entry<T>& entry) const
         fail(entry.word, "a dictionary", allowedText(entry));
 
     const Rest all{found->value.data(), found->value.data() + found->value.size()};
-    constexpr bool isNumber = std::is_same_v<T, double> || std::is_same_v<T, Vector3>;
+    constexpr bool isNumber = std::is_same_v<T, double> || std::is_same_v<T, Vector3> ||
+                              std::is_same_v<T, std::vector<FormulaText>>;
     constexpr bool isPlain = std::is_same_v<T, Dimensions> || std::is_same_v<T, bool> || std::is_same_v<T, std::string>;
     Rest rest = all;
     if constexpr (!isPlain)
@@ -103,6 +104,7 @@ template Vector3 Dictionary::get(const Entry<Vector3>&) const;
 template Dimensions Dictionary::get(const Entry<Dimensions>&) const;
 template std::vector<double> Dictionary::get(const Entry<std::vector<double>>&) const;
 template std::vector<std::string> Dictionary::get(const Entry<std::vector<std::string>>&) const;
+template std::vector<FormulaText> Dictionary::get(const Entry<std::vector<FormulaText>>&) const;
 template std::vector<Vector3> Dictionary::get(const Entry<std::vector<Vector3>>&) const;
 
 std::string Dictionary::choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,

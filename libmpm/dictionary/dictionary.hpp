@@ -60,6 +60,13 @@ inline constexpr Dimensions density{1, -3, 0};
 inline constexpr Dimensions pressure{1, -1, -2};
 } // namespace unit
 
+/// A number or the text of a formula, as it was written (dictionary/expression.hpp).
+struct FormulaText
+{
+    std::string text;
+    Location where;
+};
+
 /// Interval of allowed values; an open end excludes its value.
 struct Bound
 {
@@ -127,7 +134,7 @@ class Dictionary
 
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
     /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers),
-    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>.
+    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, std::vector<FormulaText>.
     template <class T>
     T get(const Entry<T>& entry) const;
 

@@ -85,6 +85,18 @@ bool take(Rest& rest, std::string& value)
     return true;
 }
 
+bool take(Rest& rest, FormulaText& value)
+{
+    if (rest.empty())
+        return false;
+    const Token& token = *rest.at;
+    double number = 0;
+    if (token.kind == Kind::number ? !take(rest, number) : !take(rest, value.text))
+        return false;
+    value = {token.text, token.where()};
+    return true;
+}
+
 bool take(Rest& rest, Vector3& value)
 {
     if (!rest.is('('))
@@ -132,6 +144,11 @@ std::string shownDefault(bool value)
 std::string shownDefault(const std::string& value)
 {
     return value;
+}
+
+std::string shownDefault(const FormulaText& value)
+{
+    return value.text;
 }
 
 std::string shownDefault(const Dimensions& value)

@@ -27,6 +27,7 @@ bool take(Rest& rest, double& value);      ///< finite; nothing but a number
 bool take(Rest& rest, Index& value);       ///< digits only
 bool take(Rest& rest, bool& value);        ///< on off yes no true false
 bool take(Rest& rest, std::string& value); ///< a word or a quoted text
+bool take(Rest& rest, FormulaText& value); ///< a number, a word or a quoted text
 bool take(Rest& rest, Vector3& value);     ///< (x y z)
 bool take(Rest& rest, Dimensions& value);  ///< [5 or 7 exponents]
 
@@ -58,6 +59,7 @@ std::string shownDefault(double value);
 std::string shownDefault(Index value);
 std::string shownDefault(bool value);
 std::string shownDefault(const std::string& value);
+std::string shownDefault(const FormulaText& value);
 std::string shownDefault(const Dimensions& value);
 std::string shownDefault(const Vector3& value);
 template <class T>
@@ -106,6 +108,12 @@ template <>
 struct Type<std::string>
 {
     static constexpr const char *name = "word", *allowed = "a word or a text in double quotes", *plural = "words";
+};
+template <>
+struct Type<FormulaText>
+{
+    static constexpr const char *name = "number or formula", *allowed = "a number or a formula in double quotes",
+                                *plural = "numbers or formulas in double quotes";
 };
 template <>
 struct Type<Vector3>

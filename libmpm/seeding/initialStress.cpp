@@ -40,7 +40,8 @@ std::array<double, 6> InitialStress::at(const Vector3& p, double density, double
     return stress;
 }
 
-InitialStress readInitialStress(const dictionary::Dictionary& material, double poissonRatio, const Vector3& g, int dim)
+InitialStress readInitialStress(const dictionary::Dictionary& material, double poissonRatio, const Vector3& g, int dim,
+                                bool hyperelastic)
 {
     using dictionary::Bound;
     namespace unit = dictionary::unit;
@@ -53,6 +54,9 @@ InitialStress readInitialStress(const dictionary::Dictionary& material, double p
                                            {"K0", "a wide layer at rest under gravity"},
                                            {"uniform", "the same stress everywhere"}},
                                           "none");
+    if (hyperelastic && type != "none")
+        dict->fail("type", type + " with a hyperelastic law, whose stress follows from the deformation since the start",
+                   "none");
     if (type == "K0")
     {
         made.type = InitialStress::Type::K0;

@@ -52,6 +52,8 @@ struct InitialStress
     bool above(const Vector3& p, double highest) const;
 };
 
-/// Reads `initialStress` of a material; poissonRatio is its law's.
-InitialStress readInitialStress(const dictionary::Dictionary& material, double poissonRatio, const Vector3& g, int dim);
+/// Reads `initialStress` of a material; poissonRatio is its law's. A hyperelastic law has no stress where F = I: only
+/// `type none` is allowed.
+InitialStress readInitialStress(const dictionary::Dictionary& material, double poissonRatio, const Vector3& g, int dim,
+                                bool hyperelastic = false);
 } // namespace mpm::seeding

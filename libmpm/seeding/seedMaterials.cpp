@@ -24,7 +24,7 @@ std::vector<SeedMaterial> readMaterials(const dictionary::Dictionary& materialPr
             dict.get<Vector3>({"initialVelocity", "velocity at the start", unit::velocity, {}, Vector3{}});
         if (dim == 2 && material.velocity[2] != 0)
             dict.fail("initialVelocity", fmt::format("z component {:.6g}", material.velocity[2]), "0 in 2D");
-        material.initialStress = readInitialStress(dict, law->poissonRatio(), g, dim);
+        material.initialStress = readInitialStress(dict, law->poissonRatio(), g, dim, law->hyperelastic());
         materials.push_back(std::move(material));
     }
     if (materials.empty())

@@ -63,7 +63,8 @@ struct State
     double time = 0;   ///< [s]
     Index step = 0;    ///< steps done since the start
     double deltaT = 0; ///< last time step used [s]; 0 before the first
-    /// Largest det F of particles that carry stress, for the wave speed; adaptive steps follow it.
+    /// Largest det F of particles that carry stress (of hyperelastic ones their waveFactor, constitutive/law.hpp): the
+    /// square of the wave speed over that at rest; adaptive steps follow it.
     double largestJacobian = 1;
     double stepFactor = 1; ///< share of the adaptive time step the monitor allows, 1 while nothing grows
     Vector3 seedSpacing{}; ///< lattice spacing of the seeding [m]

@@ -1,13 +1,30 @@
 #include "stepping/energyBudget.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace mpm::stepping
 {
 namespace
 {
+/// W(F) of one particle.
+double storedEnergyOf(const state::Particles& p, std::size_t i, const constitutive::Hyperelastic& law)
+{
+    const auto of = [&]<int dim>(std::integral_constant<int, dim>) {
+        alignas(64) constitutive::TensorLanes<dim> F;
+        alignas(64) double energy[lanes];
+        for (int k = 0; k < dim * dim; ++k)
+            std::fill_n(F[k], lanes, p.F[std::size_t(k)][i]);
+        law.strainEnergy(F, energy);
+        return energy[0];
+    };
+    return p.dim == 2 ? of(std::integral_constant<int, 2>{}) : of(std::integral_constant<int, 3>{});
+}
+
 double strainEnergyOf(const state::Particles& p, std::size_t i, const constitutive::Law& law)
 {
+    if (const auto* hyperelastic = law.hyperelastic())
+        return p.volume0[i] * storedEnergyOf(p, i, *hyperelastic);
     double sigma[6] = {};
     for (int k = 0; k < stressComponents(p.dim); ++k)
         sigma[k] = p.stress[k][i];

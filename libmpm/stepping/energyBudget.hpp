@@ -1,7 +1,7 @@
 #pragma once
 /// The energy budget (METHOD, Energy), every entry from its own formula, none the remainder of the others:
 ///     kineticEnergy        sum m v_p^2/2
-///     strainEnergy         sum V 1/2 sigma : C^-1 : sigma
+///     strainEnergy         sum V 1/2 sigma : C^-1 : sigma; sum V0 W(F) of hyperelastic laws
 ///     plasticDissipation   sum V sigma_mid : dEps_p, sigma_mid the mean of the stresses before and after the step
 ///     frictionDissipation  - sum J_t . v* over friction walls, J_t the impulse of friction on a node
 ///     dampingDissipation   - sum J . (v_i + v*)/2, J the impulse of damping (nodal/damping.hpp)
@@ -12,9 +12,10 @@
 ///     splitMergeLoss       energy lost by splitting
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
-///     density,
-///                          s the stress before a step, s' the same turned, S after it, V and V' the volumes,
-///                          sum (u + u')/2 (V' - V) + (V' - V) (s' - S) : dEps/4 + V (s' - s) : dEps/2
+///                          density, s the stress before a step, s' the same turned, S after it, V and V' the
+///                          volumes, sum (u + u')/2 (V' - V) + (V' - V) (s' - S) : dEps/4 + V (s' - s) : dEps/2.
+///                          Of hyperelastic laws: the change of their energy less the work of the trapezoidal rule,
+///                          sum V0 (W' - W) - (V s + V' S) : dEps/2, third order in dt
 ///     staggering           energy that velocities lack because they live half a step off the stresses, a function of
 ///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
 ///                          leapfrog keeps kinetic + strain energy + staggering, not their sum without it

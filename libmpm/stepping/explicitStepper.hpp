@@ -90,6 +90,7 @@ class ExplicitStepper : public Stepper
         alignas(64) constitutive::TensorLanes<dim> L, F;
         alignas(64) double J[lanes];
         constitutive::Chunk<dim> law;
+        alignas(64) double storedBefore[lanes], stored[lanes]; ///< W(F) of hyperelastic lanes
         transfer::Values<dim> value;
         Weights<Shape> wide;
         Weights<Narrow> narrow;
@@ -147,6 +148,9 @@ class ExplicitStepper : public Stepper
     bool filters() const { return scene_.transfer == Transfer::XPIC || scene_.transfer == Transfer::FMPM; }
     void updateStress(Workspace& ws, Index first, int count, double dt);
     void loadModuli(Workspace& ws, Index first, int count) const;
+    template <class Body>
+    void forHyperelastic(Index first, int count, Body&& body) const;
+    void storedEnergy(const Workspace& ws, Index first, int count, double (&stored)[lanes]) const;
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
     void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
@@ -184,6 +188,7 @@ class ExplicitStepper : public Stepper
     double smallestMass_ = 0;
     double kick_ = 0; ///< time over which the coming step's accelerations act: dt, half of it at a staggered start
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
+    bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step
     bool stray_ = false;                        ///< the last projection left particles out

@@ -35,7 +35,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
                 tractionPatch_.push_back(k);
             }
     for (const auto& material : scene.materials)
+    {
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
+        anyHyperelastic_ = anyHyperelastic_ || material.law->hyperelastic();
+    }
     if (affine() && !state.particles.hasAffine())
         state.particles.enableAffine();
     if (!affine() && state.particles.hasAffine()) // the state of a run with another transfer

@@ -36,6 +36,33 @@ void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&halfOve
     }
 }
 
+/// body(law, mine) for each hyperelastic law in a chunk; mine(lane): is the lane of it?
+template <int dim, class Shape>
+template <class Body>
+void ExplicitStepper<dim, Shape>::forHyperelastic(Index first, int count, Body&& body) const
+{
+    const std::int32_t* material = state_.particles.material.data() + first;
+    const auto [low, high] = std::minmax_element(material, material + count);
+    for (std::int32_t m = *low; m <= *high; ++m)
+        if (const auto* law = scene_.materials[std::size_t(m)].law->hyperelastic())
+            if (std::find(material, material + count, m) != material + count)
+                body(*law, [=](int lane) { return lane < count && material[lane] == m; });
+}
+
+/// W(F) of hyperelastic lanes.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::storedEnergy(const Workspace& ws, Index first, int count,
+                                               double (&stored)[lanes]) const
+{
+    forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+        alignas(64) double own[lanes];
+        law.strainEnergy(ws.F, own);
+        for (int l = 0; l < lanes; ++l)
+            if (mine(l))
+                stored[l] = own[l];
+    });
+}
+
 /// F, V and stress from the velocity gradient.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int count, double dt)
@@ -56,12 +83,15 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, work);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
+    if (anyHyperelastic_)
+        storedEnergy(ws, first, count, ws.storedBefore);
     constitutive::advanceDeformation(ws.L, dt, ws.F);
     ws.ahead.some(4);
     constitutive::determinant(ws.F, ws.J);
     constitutive::rotateStress(ws.L, dt, chunk.stress);
     ws.ahead.some(5);
     workOfStrain(chunk, workTurned);
+    chunk.F = &ws.F;
     callLaws(first, count, chunk);
     ws.ahead.some(5);
 
@@ -86,18 +116,43 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     alignas(64) double stiffJ[lanes];
     for (int l = 0; l < lanes; ++l)
         stiffJ[l] = chunk.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
+    if (anyHyperelastic_)
+        forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+            alignas(64) double own[lanes];
+            law.waveFactor(ws.F, own);
+            for (int l = 0; l < lanes; ++l)
+                if (mine(l))
+                    stiffJ[l] = own[l];
+        });
     sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
     workOfStrain(chunk, workAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
+    if (anyHyperelastic_)
+    {
+        storedEnergy(ws, first, count, ws.stored); // of F as it is stored
+        forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
+            for (int l = 0; l < lanes; ++l)
+                if (mine(l))
+                    energy[l] = ws.stored[l] / ws.J[l];
+        });
+    }
     sums.strainEnergy += transfer::sumOfProducts(ws.volume, energy);
     for (int l = 0; l < lanes; ++l)
     {
         const double grown = ws.volume[l] - ws.volumeBefore[l];
         energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown + 0.25 * grown * (workTurned[l] - workAfter[l]) +
                           0.5 * ws.volumeBefore[l] * (workTurned[l] - work[l]);
+        workTurned[l] = ws.volumeBefore[l];
         ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
+    if (anyHyperelastic_)
+        forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
+            for (int l = 0; l < lanes; ++l)
+                if (mine(l))
+                    energyBefore[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
+                                      0.5 * (workTurned[l] * work[l] + ws.volume[l] * workAfter[l]);
+        });
     sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
     sums.plasticWork += transfer::sumOfProducts(ws.volumeBefore, chunk.plasticWork);
     sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);

@@ -43,7 +43,7 @@ struct StabilityLimit
 bool limitFollowsMass(const Scene& scene, bool ignoresMass);
 
 /// The limit of the state as it is. c_p is that of the materials at rest times sqrt(max det F): an expanded solid is
-/// lighter and as stiff (State::largestJacobian).
+/// lighter and as stiff (State::largestJacobian); hyperelastic laws say themselves how fast waves are (waveFactor).
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool ignoresMass);
 
 /// The same limit for the speeds and stretches of a later state; the nodal masses stay those it was made with.

@@ -30,10 +30,10 @@ int driveLaw(const cases::Options& options)
     const std::string path = constitutive::requireSoilTest(options.value("path"));
     const auto file = dictionary::Dictionary::readFile(options.value("law"));
     const auto& material = constitutive::lawDictionary(file, options.value("material"));
-    for (const char* word : {"density", "initialStress", "initialVelocity"})
+    for (const char* word : {"density", "initialStress", "initialVelocity", "constants"})
         material.passOver(word, "the solver's");
     const auto law = constitutive::makeLaw(material);
-    const auto test = constitutive::readSoilTest(material, path, law->poissonRatio());
+    const auto test = constitutive::readSoilTest(material, path, law->poissonRatio(), law->hyperelastic());
     file.rejectUnread();
 
     const auto points = constitutive::runSoilTest(*law, test);
