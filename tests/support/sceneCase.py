@@ -62,9 +62,10 @@ class Run:
         return self
 
     def set(self, file, word, value):
-        """Gives the entry that begins a line with this word another value."""
+        """Gives the entry that begins a line with this word another value; one in braces, "{ A 1; }", replaces a dictionary."""
         path = self.folder / file
-        text, count = re.subn(rf"(?m)^(\s*{word}\s+)[^;]*;", rf"\g<1>{value};", path.read_text())
+        old, new = (r"\{[^}]*\}", value) if str(value).startswith("{") else ("[^;]*;", f"{value};")
+        text, count = re.subn(rf"(?m)^(\s*{word}\s+){old}", lambda found: found.group(1) + new, path.read_text())
         if count != 1:
             raise SystemExit(f"{path}: {count} entries {word}, one is needed")
         path.write_text(text)
