@@ -117,6 +117,10 @@ class Verification(SceneCase):
                 found = {measure: math.nan for measure in study.errors}
             for measure, number in found.items():
                 study.errors.setdefault(measure, [math.nan] * index).append(number)
+        if not study.errors:
+            print("".join(f"      {label}, {parameter} = {value:g}: {why}\n" for value, why in study.failed.items()))
+            self.check(f"runs that can be measured ({label})", 0, ">", 0)
+            super().finish()
         for measure, errors in study.errors.items():
             orders = ", ".join(f"{order:.2f}" for order in study.orders(measure))
             print(f"      {label}, {parameter} = {', '.join(f'{v:g}' for v in values)}: {measure} "
@@ -240,7 +244,8 @@ def worst_rms(run, exact):
 
 def expressions(path, word="value"):
     """The vector of expressions of a dictionary entry, value ("..." 0 "..."), as a function of names: the very text the
-    solver reads is what a check compares with its theory. Names of `constants { A 0.05; }` are known."""
+    solver reads is what a check compares with its theory. Names of `constants { A 0.05; R "sqrt(X^2 + Y^2)"; }` are known,
+    in their order; what is given by name when it is called comes before them."""
     text = re.sub(r"//[^\n]*", "", Path(path).read_text())
     text = re.sub(r"\blambda\b", "lambda_", text)  # a word of Python
     entry = re.search(rf"(?m)^\s*{word}\s*\(([^;]*)\)\s*;", text)
@@ -248,13 +253,16 @@ def expressions(path, word="value"):
     known = {"pi": np.pi, **{name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs")},
              "ln": np.log, "atan2": np.arctan2}
     block = re.search(r"constants\s*\{([^}]*)\}", text)
-    constants = {n: float(v) for n, v in re.findall(r"(\w+)\s+([^\s;]+)\s*;", block.group(1))} if block else {}
+    entries = re.findall(r'(\w+)\s+"?([^;"]+)"?\s*;', block.group(1)) if block else []
+    named = [(name, compile(part.strip().replace("^", "**"), str(path), "eval")) for name, part in entries]
     code = [compile(part.replace("^", "**"), str(path), "eval") for part in parts]
 
     def value(**names):
         shape = np.broadcast(*names.values()).shape
-        return np.stack([np.broadcast_to(eval(c, {"__builtins__": {}}, {**known, **constants, **names}), shape)
-                         for c in code], axis=-1)
+        scope = {**known, **names, "__builtins__": {}}
+        for name, part in named:
+            scope[name] = eval(part, scope) if name not in names else names[name]
+        return np.stack([np.broadcast_to(eval(c, scope), shape) for c in code], axis=-1)
     return value
 
 
