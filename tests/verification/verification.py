@@ -73,9 +73,9 @@ class Study:
         self.errors, self.failed = {}, {}
 
     def sizes(self):
-        """Proportional to the cell size or step: a parameter written with a capital (N) counts cells."""
+        """Proportional to the cell size or step: N (cells) and steps count."""
         values = np.asarray(self.values, float)
-        return 1 / values if self.parameter[0].isupper() else values
+        return 1 / values if self.parameter in ("N", "steps") else values
 
     def orders(self, measure):
         """Between neighbours: log(e1/e2)/log(h1/h2)."""

@@ -1,10 +1,10 @@
 """A confined elastic column under its own weight, in four strain laws.
-Measured: RMS errors of stress and of position at rest, against the cell size: AMPLE's column (strains to 4 %), shapes
-and laws; and a soft column that loses 23 to 39 % of its height.
-Pass: stress and position converge with order 0.9 or more in both GIMP shapes and all laws, to stress errors below 0.5 %
-of rho g H and position errors below 1e-4 H at 80 cells; the top settles as each law has it; linear MPM does not converge."""
+Measured: RMS errors of stress and of position at rest, against the cell size: a column with strains to 4 %, and a soft one
+that loses 23 to 39 % of its height.
+Pass: both converge with order 0.95 or more in all laws, to 0.2 % of rho g H and 2e-6 H at 80 cells (cpGIMP, strains to
+4 %), 0.3 % and 1.5e-4 H (soft); closed forms give the published settlements; linear MPM does not converge."""
 import numpy as np
-from verification import Number, Verification, rms
+from verification import Verification, rms
 
 case = Verification(__file__, __doc__)
 LAWS = ("linearElastic", "smallStrain", "hencky", "neoHookean")
@@ -62,8 +62,8 @@ class Column:
             Y = first.by_id("position")[:, 1]
             stress = rms(last.by_id("stress")[:, 1] + self.weight(Y)) / (self.rho * self.g * self.H)
             position = rms(last.by_id("position")[:, 1] - self.position(law, Y)) / self.H
-            moved = np.abs(last.by_id("position") - run.state(-2).by_id("position")).max() / self.H
-            self.rest = max(self.rest, moved)
+            moved = rms(last.by_id("position") - run.state(-2).by_id("position")) / self.H
+            self.rest = max(self.rest, moved / position)
             return {"stress": stress, "position": position}
         return of
 
@@ -81,15 +81,13 @@ for law in LAWS:
 # columns, laws, shapes, bounds of the errors of stress and position at 80 cells
 STUDIES = [("strains to 4 %", stiff, law, "cpGIMP", 0.002, 2e-6) for law in LAWS]
 STUDIES += [("strains to 4 %", stiff, "linearElastic", "uGIMP", 0.004, 1e-5)]
-STUDIES += [("soft", soft, law, "cpGIMP", 0.02, 1e-3) for law in LAWS]
+STUDIES += [("soft", soft, law, "cpGIMP", 0.003, 1.5e-4) for law in LAWS]
 for what, column, law, shape, *bounds in STUDIES:
     study = case.study(f"{what}, {law}, {shape}", "N", (10, 20, 40, 80), column.errors(law, shape))
-    case.check(f"motion in the last sixth of the run over H ({study.label})", column.rest, "<=", 1e-7)
+    case.check(f"motion in the last sixth of the run over the error of position ({study.label})", column.rest, "<=", 0.1)
     for measure, bound in zip(("stress", "position"), bounds):
-        if measure == "stress" or shape == "cpGIMP":
-            case.check(f"order by fit, {measure} ({study.label})", study.fit(measure), ">=", 0.9)
-        else:
-            case.check_order(study, measure, 0.9, last=1)  # first order from 40 cells on
+        case.check(f"order by fit, {measure} ({study.label})", study.fit(measure), ">=", 0.95)
+        case.check(f"smallest fall of {measure} by halving cells ({study.label})", 2**study.orders(measure).min(), ">=", 1 / 0.7)
         case.check(f"{measure} ({study.label})", study.errors[measure][-1], "<=", bound)
 linear = case.study("strains to 4 %, linearElastic, linear", "N", (10, 20, 40, 80), stiff.errors("linearElastic", "linear"), loose=True)
 case.check("linear MPM: stress at 80 cells over that at 20", linear.errors["stress"][-1] / linear.errors["stress"][1], ">", 0.9)
