@@ -1,7 +1,7 @@
 """An elastic bar on a fixed base under sudden gravity.
 Measured: displacement, stress, the top's largest settlement and the period, against the cell size, in four shapes.
 Pass: with 80 cells the top is at twice the static settlement at t = 2 H/c within 0.1 %, the period is 4 H/c within
-0.05 %, displacement right to 0.2 % and stress to 0.5 %; displacement converges faster than the cells shrink."""
+0.05 %, displacement right to 0.2 % and stress to 0.5 %; displacement converges with order 1.6 or more where the start is staggered."""
 import numpy as np
 from verification import Verification, displacements, rms, schemes
 
@@ -32,7 +32,8 @@ def crossings(time, y, level):
 def errors(shape, update):
     def of(N):
         h = H / N
-        run = case.solve(f"{shape}{update}{N}", *schemes(shape, update), ("geometry/bar.geo", "width", f"= {h!r}"),
+        run = case.solve(f"{shape}{update}{N}", *schemes(shape, update),
+                         ("system/mpmSchemes", "staggeredStart", "no" if update == "USF" else "yes"), ("geometry/bar.geo", "width", f"= {h!r}"),
                          ("system/gridDict", "cellSize", repr(h)), ("system/controlDict", "deltaT", repr(0.25 * h / C)))
         X, states = displacements(run)
         Y = X[:, 1]
@@ -51,7 +52,7 @@ def errors(shape, update):
 
 for shape, update in (("linear", "USL"), ("uGIMP", "MUSL"), ("cpGIMP", "USF"), ("quadraticBSpline", "MUSL")):
     study = case.study(f"{shape} {update}", "N", (10, 20, 40, 80), errors(shape, update))
-    for measure, bound in (("displacement", 2e-3), ("stress", 5e-3), ("top at 2 H/c", 1e-3), ("period", 5e-4)):
+    for measure, bound in (("displacement", 1e-3), ("stress", 5e-3), ("top at 2 H/c", 1e-3), ("period", 5e-4)):
         case.check(f"{measure} ({study.label})", study.errors[measure][-1], "<=", bound)
-    case.check(f"order of displacement, fit ({study.label})", study.fit("displacement"), ">=", 1)
+    case.check(f"order of displacement, fit ({study.label})", study.fit("displacement"), ">=", 1.2 if update == "USF" else 1.6)
 case.finish()
