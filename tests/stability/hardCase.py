@@ -1,7 +1,6 @@
-"""What the check.py of a hard case is written with: copies of its scene, runs of the utilities, criteria, a verdict.
+"""What the check.py of a hard case is written with, on top of tests/support/sceneCase.py.
 
-A scene is a folder: geometry/, constant/ and system/ as in any case, and check.py, whose docstring says in three lines
-what the case is, why it is hard and when it passes:
+Its docstring says in three lines what the case is, why it is hard and when it passes:
 
     \"\"\"One particle in free fall.
     Hard: a lone particle must not feel its own image on the grid.
@@ -13,172 +12,24 @@ what the case is, why it is hard and when it passes:
     case.check("error of v", abs(v - expected), "<=", 1e-12, "m/s")
     case.finish()
 
-tests/stability/check NAME runs one. It needs nothing but a build (MPM_BUILD_DIR, default build/) and writes only below <build>/tests/stability/<name>/:
-one copy of the scene a variant, and verdict.json, which cases/hardCases gathers. It exits with 1 if a criterion fails.
-`check.py --long` runs the long version where there is one (label nightly).
+tests/stability/check NAME runs one, below <build>/tests/stability/<name>/; cases/hardCases gathers the verdicts.
 """
 
-import json
 import math
-import os
-import re
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-PROJECT = Path(__file__).resolve().parents[2]
-BUILD = Path(os.environ.get("MPM_BUILD_DIR") or PROJECT / "build").resolve()
-RELATIONS = {"<": lambda a, b: a < b, "<=": lambda a, b: a <= b, ">": lambda a, b: a > b, ">=": lambda a, b: a >= b,
-             "==": lambda a, b: a == b}
-LONG = "--long" in sys.argv
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from sceneCase import BUILD, LONG, PROJECT, Run, SceneCase, State, log_number, pressure, record, schemes, set_fields
 
 
-class State:
-    """A state.h5: attributes, particles (x, v, stress, F, mass, volume, id, ... by their names there), ledger."""
+class HardCase(SceneCase):
+    KIND = "stability"
 
-    def __init__(self, path):
-        self.path = Path(path)
-        with h5py.File(path) as file:
-            self.attributes = dict(file.attrs)
-            self.particles = {name: item[()] for name, item in file["particles"].items()}
-            self.ledger = {name: item[()] for name, item in file["ledger"].items()}
-        self.time = float(self.attributes["time"])
-
-    def __getitem__(self, name):
-        return self.particles[name]
-
-    def by_id(self, name):
-        return self.particles[name][np.argsort(self.particles["id"])]
-
-
-class Run:
-    """One copy of the scene and what the last utility in it did."""
-
-    def __init__(self, folder):
-        self.folder, self.exit, self.log = folder, 0, ""
-
-    def utility(self, name, *options, threads=None, environment=None):
-        """Runs a utility in the folder; exit code and everything it printed are kept, nothing is raised."""
-        command = [BUILD / "bin" / name, *options] + (["-threads", str(threads)] if threads else [])
-        done = subprocess.run(command, cwd=self.folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL, timeout=1800, env={**os.environ, **(environment or {})})
-        self.exit, self.log = done.returncode, done.stdout
-        (self.folder / f"log.{name}").write_text(done.stdout)
-        return self
-
-    def set(self, file, word, value):
-        """Gives the entry that begins a line with this word another value."""
-        path = self.folder / file
-        text, count = re.subn(rf"(?m)^(\s*{word}\s+)[^;]*;", rf"\g<1>{value};", path.read_text())
-        if count != 1:
-            raise SystemExit(f"{path}: {count} entries {word}, one is needed")
-        path.write_text(text)
-
-    def edit(self, change, time=-1):
-        """Lets change(particles) alter the arrays of a stored state in place (default: the last), before a run."""
-        with h5py.File(self.state(time).path, "r+") as file:
-            particles = {name: item[()] for name, item in file["particles"].items()}
-            change(particles)
-            for name, values in particles.items():
-                file["particles"][name][...] = values
-        return self
-
-    def times(self):
-        found = [p.parent.name for p in self.folder.glob("*/state.h5")]
-        return sorted(found, key=float)
-
-    def state(self, time=-1):
-        """By index (-1 the last, 0 the first) or by folder name."""
-        return State(self.folder / (self.times()[time] if isinstance(time, int) else time) / "state.h5")
-
-    def series(self, name="history"):
-        """Columns of postProcessing/<name>.csv by name."""
-        return np.atleast_1d(np.genfromtxt(self.folder / "postProcessing" / f"{name}.csv", delimiter=",", names=True))
-
-
-class HardCase:
     def __init__(self, script, text):
-        self.scene = Path(script).resolve().parent
-        self.name = self.scene.name
-        self.folder = BUILD / "tests" / "stability" / (self.name + ("-long" if LONG else ""))
-        lines = " ".join(text.split())
-        title, rest = lines.split(" Hard: ")
-        hard, criterion = rest.split(" Pass: ")
-        self.about = {"case": self.name, "title": title, "whatIsHard": hard, "criterion": criterion}
-        self.checks = []
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-    def copy(self, variant, *changes):
-        """A fresh copy of the scene; change = (file, word, value)."""
-        run = Run(self.folder / variant)
-        for part in ("geometry", "constant", "system"):
-            if (self.scene / part).is_dir():
-                shutil.copytree(self.scene / part, run.folder / part)
-        for change in changes:
-            run.set(*change)
-        return run
-
-    def seed(self, variant, *changes):
-        """A copy with its 0/state.h5; seeding must succeed."""
-        run = self.copy(variant, *changes).utility("seedParticles")
-        if run.exit != 0:
-            print(run.log)
-            self.check(f"exit code of seedParticles ({variant})", run.exit, "==", 0)
-            self.finish()
-        return run
-
-    def solve(self, variant, *changes, exits=0, threads=None):
-        """A seeded copy, solved to its end; the exit code is a criterion of its own where it is not `exits`."""
-        run = self.seed(variant, *changes).utility("mpmSolve", threads=threads)
-        if run.exit != exits:
-            print(run.log)
-            self.check(f"exit code of mpmSolve ({variant})", run.exit, "==", exits)
-        return run
-
-    def require(self, run, exits=0):
-        """Makes the exit code of the run's last utility a criterion, for runs not made by solve()."""
-        if run.exit != exits:
-            print(run.log)
-        self.check(f"exit code ({run.folder.name})", run.exit, "==", exits)
-        return run
-
-    def check(self, what, measured, relation, bound, unit=""):
-        """One criterion; numbers are compared as they are, a NaN fails all."""
-        passed = bool(RELATIONS[relation](measured, bound))
-        self.checks.append({"what": what, "measured": measured if isinstance(measured, str) else float(measured),
-                            "relation": relation, "bound": bound if isinstance(bound, str) else float(bound),
-                            "unit": unit, "passed": passed})
-        text = measured if isinstance(measured, str) else f"{measured:.4g}"
-        print(f"{'ok  ' if passed else 'FAIL'}  {what}: {text} {unit} ({relation} {bound})")
-        return passed
-
-    def common(self, run, energy=0.02, impulse=0.0):
-        """What holds in every case: finite numbers, exact mass, momentum balance, yield condition, energy budget.
-        energy: largest |residual| over the energy that was there or supplied; impulse [N s]: of forces that cancel in the
-        ledger (walls that face each other), so that round-off is measured against them too."""
-        first, last, history = run.state(0), run.state(-1), run.series()
-        tag = f" ({run.folder.name})"
-        numbers = [last[n] for n in last.particles] + [history[n] for n in history.dtype.names]
-        self.check("numbers that are not finite" + tag, sum(int((~np.isfinite(n)).sum()) for n in numbers), "==", 0)
-        mass = math.fsum(last["mass"]) / math.fsum(first["mass"]) - 1
-        self.check("change of mass" + tag, abs(mass), "<=", 1e-14)
-        ledger = last.ledger
-        dim = last["velocity"].shape[1]
-        sources = [ledger[n][:dim] for n in ("initialMomentum", "wallImpulse", "gravityImpulse", "tractionImpulse",
-                                          "dampingImpulse") if n in ledger]
-        momentum = (last["mass"][:, None] * last["velocity"]).sum(axis=0)
-        scale = (last["mass"][:, None] * np.abs(last["velocity"])).sum() + sum(np.abs(s).sum() for s in sources) + impulse
-        if scale > 0:
-            self.check("momentum that came from nowhere" + tag, np.abs(momentum - sum(sources)).max() / scale, "<=", 1e-12)
-        self.check("yield violation" + tag, history["maxYieldViolation"].max(), "<=", 1e-9)
-        supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork"))
-        supplied += np.abs(history["gravityWork"]).max()  # what bounces gives it back
-        if supplied > 0:
-            self.check("energy residual" + tag, np.abs(history["residual"]).max() / supplied, "<=", energy)
+        super().__init__(script, text, "Hard", "whatIsHard")
 
     def nothing_gained(self, run, most=0.02):
         """The residual closes over what transfers between particles and grid make of nothing; this does not: their loss,
@@ -192,49 +43,8 @@ class HardCase:
             lost = budget["transferLoss"] + budget["wallLoss"]
             self.check(f"energy gained in transfer ({run.folder.name})", -lost.min() / supplied, "<=", most)
 
-    def finish(self):
-        passed = bool(self.checks) and all(c["passed"] for c in self.checks)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "verdict.json").write_text(json.dumps({**self.about, "passed": passed, "checks": self.checks},
-                                                             indent=1))
-        print(f"{self.name}: {'passed' if passed else 'FAILED'}")
-        sys.exit(0 if passed else 1)
-
 
 # What several cases share --------------------------------------------------------------------------------------------
-
-def set_fields(run, **fields):
-    """Overwrites fields of the particles in 0/state.h5 (between seeding and solving): arrays, or functions of the
-    positions (N, dim), as velocity=lambda x: 0 * x."""
-    with h5py.File(run.folder / "0" / "state.h5", "r+") as file:
-        position = file["particles/position"][()]
-        for name, value in fields.items():
-            item = file["particles"][name]
-            item[...] = np.asarray(value(position) if callable(value) else value).reshape(item.shape)
-
-
-def schemes(shape, update):
-    """Changes of system/mpmSchemes."""
-    return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
-
-
-def record(case, what, measured, unit=""):
-    """A number for the table that no criterion bounds."""
-    case.checks.append({"what": what, "measured": float(measured), "relation": "recorded", "bound": float(measured),
-                        "unit": unit, "passed": True})
-    print(f"      {what}: {measured:.4g} {unit} (recorded)")
-
-
-def pressure(stress):
-    """-(s_xx + s_yy + s_zz)/3, compression positive."""
-    return -stress[:, :3].sum(axis=1) / 3
-
-
-def log_number(run, pattern):
-    """The number a regular expression's group finds in what the last utility printed; NaN if it is not there."""
-    found = re.search(pattern, run.log)
-    return float(found.group(1)) if found else math.nan
-
 
 def checkerboard(position, value, spacing):
     """RMS amplitude of what alternates from one particle to the next: half of each value less the mean of its four

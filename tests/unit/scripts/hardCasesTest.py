@@ -32,6 +32,8 @@ class HardCases(unittest.TestCase):
         self.scenes.mkdir(parents=True)
         for name in ("check", "hardCase.py"):
             shutil.copy(PROJECT / "tests" / "stability" / name, self.scenes)
+        (self.home / "tests" / "support").mkdir()
+        shutil.copy(PROJECT / "tests" / "support" / "sceneCase.py", self.home / "tests" / "support")
         self.readme = self.home / "cases" / "hardCases" / "README.md"
         self.out = self.home / "cases" / "hardCases" / "postProcessing"
 
