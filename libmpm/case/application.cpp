@@ -45,6 +45,11 @@ std::vector<ExtraOption> allOptions(const ApplicationInfo& info)
     return all;
 }
 
+bool mayLackArgument(const ExtraOption& option)
+{
+    return option.argument.starts_with('[');
+}
+
 bool isRepeatable(const ExtraOption& option)
 {
     return option.argument.ends_with("...");
@@ -102,6 +107,11 @@ std::map<std::string, std::vector<std::string>> parse(const std::vector<std::str
             continue;
         const std::string next = i + 1 < arguments.size() ? arguments[i + 1] : "";
         const bool isOption = next.size() > 1 && next[0] == '-' && findOption(options, next.substr(1));
+        if ((i + 1 == arguments.size() || isOption) && mayLackArgument(*option))
+        {
+            values.push_back("");
+            continue;
+        }
         if (i + 1 == arguments.size() || isOption)
             throw InputError(fmt::format("'{}' lacks its argument{}, allowed {}", token,
                                          isOption ? " (found the option '" + next + "')" : "", usage(*option)));

@@ -48,7 +48,8 @@ struct Options
     int threadCount() const;
 };
 
-/// An option of one utility. An empty `argument` makes it a flag; one that ends in "..." may be repeated.
+/// An option of one utility. An empty `argument` makes it a flag; one that ends in "..." may be repeated; one in
+/// brackets may be left out and is then an empty text.
 struct ExtraOption
 {
     std::string name, argument, help;

@@ -51,4 +51,39 @@ std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::
                     : stepping::makeExplicitStepper<3, shape::CubicBSpline>(state, scene);
     throw InputError("there is no shape '" + shape + "'");
 }
+
+std::string whyNotSmooth(const std::string& shape, const stepping::Scene& scene)
+{
+    if (shape == "linear" || shape == "CPDI")
+        return "gradients of the shape " + shape + " jump where particles cross cell faces";
+    return stepping::whyNotSmooth(scene);
+}
+
+std::unique_ptr<semiDiscrete::SemiDiscrete> makeSemiDiscrete(const std::string& shape, const state::State& state,
+                                                             const stepping::Scene& scene)
+{
+    using semiDiscrete::makeSemiDiscrete;
+    if (const auto why = whyNotSmooth(shape, scene); !why.empty())
+        throw InputError(why);
+    const auto model = stepping::semiDiscreteModel(scene);
+    const bool flat = state.particles.dim == 2;
+    if (shape == "uGIMP")
+        return flat ? makeSemiDiscrete<2, shape::UGIMP>(state, model) : makeSemiDiscrete<3, shape::UGIMP>(state, model);
+    if (shape == "cpGIMP")
+        return flat ? makeSemiDiscrete<2, shape::CpGIMP>(state, model)
+                    : makeSemiDiscrete<3, shape::CpGIMP>(state, model);
+    if (shape == "quadraticBSpline")
+        return flat ? makeSemiDiscrete<2, shape::QuadraticBSpline>(state, model)
+                    : makeSemiDiscrete<3, shape::QuadraticBSpline>(state, model);
+    if (shape == "cubicBSpline")
+        return flat ? makeSemiDiscrete<2, shape::CubicBSpline>(state, model)
+                    : makeSemiDiscrete<3, shape::CubicBSpline>(state, model);
+    throw InputError("there is no shape '" + shape + "'");
+}
+
+std::unique_ptr<stepping::Stepper> makeRungeKutta(const std::string& shape, stepping::RungeKuttaOrder order,
+                                                  state::State& state, const stepping::Scene& scene)
+{
+    return stepping::makeRungeKutta(order, makeSemiDiscrete(shape, state, scene), state, scene);
+}
 } // namespace mpm::cases

@@ -170,6 +170,7 @@ std::vector<LawCheck> readLawChecks(const Dictionary& dict, const Laws& laws, co
     std::vector<LawCheck> checks;
     const auto steps = readSteps(dict, "steps", "of the return map over a path", 512);
     dict.found("material");
+    dict.passOver("time", "temporal errors, for checkIntegration -time");
     if (const Dictionary* paths = dict.findDict("paths", "strain rates as functions of time"))
         for (const auto& name : paths->dictNames())
             checks.push_back(readPath(dict, paths->subDict(name, "a path"), name, laws, steps));

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
+#include <utility>
 
 namespace mpm::reference
 {
@@ -40,7 +42,8 @@ struct OdeSolver::Body
     double t = 0;
     std::vector<double> values;
     long evaluations = 0;
-    int standing = 0; ///< steps in a row too short to change t
+    int standing = 0;          ///< steps in a row too short to change t
+    std::exception_ptr thrown; ///< by the right-hand side: it must not pass through CVODE, which is C
 
     ~Body()
     {
@@ -54,7 +57,15 @@ struct OdeSolver::Body
         auto* body = static_cast<Body*>(self);
         ++body->evaluations;
         double* out = N_VGetArrayPointer(rate);
-        body->rhs(t, N_VGetArrayPointer(y), out);
+        try
+        {
+            body->rhs(t, N_VGetArrayPointer(y), out);
+        }
+        catch (...)
+        {
+            body->thrown = std::current_exception();
+            return -1;
+        }
         const bool finite = std::all_of(out, out + N_VGetLength(rate), [](double x) { return std::isfinite(x); });
         return finite ? 0 : 1; // 1: CVODE may try a smaller step
     }
@@ -71,9 +82,14 @@ struct OdeSolver::Body
 };
 
 OdeSolver::OdeSolver(std::size_t size, double relativeTolerance, double absoluteTolerance, RightHandSide rhs)
+    : OdeSolver(relativeTolerance, std::vector<double>(size, absoluteTolerance), std::move(rhs))
+{}
+
+OdeSolver::OdeSolver(double relativeTolerance, const std::vector<double>& absoluteTolerances, RightHandSide rhs)
     : body_(std::make_unique<Body>())
 {
     Body& b = *body_;
+    const std::size_t size = absoluteTolerances.size();
     b.rhs = std::move(rhs);
     b.values.assign(size, 0);
     b.y = N_VNew_Serial(sunindextype(size), b.context);
@@ -84,7 +100,11 @@ OdeSolver::OdeSolver(std::size_t size, double relativeTolerance, double absolute
         throw StepError("the reference solution failed: no memory for CVODE");
     check(CVodeSetErrHandlerFn(b.cvode, silent, nullptr), "CVodeSetErrHandlerFn");
     check(CVodeInit(b.cvode, Body::callRhs, 0, b.y), "CVodeInit");
-    check(CVodeSStolerances(b.cvode, relativeTolerance, absoluteTolerance), "CVodeSStolerances");
+    const N_Vector tolerances = N_VNew_Serial(sunindextype(size), b.context);
+    std::copy(absoluteTolerances.begin(), absoluteTolerances.end(), N_VGetArrayPointer(tolerances));
+    const int flag = CVodeSVtolerances(b.cvode, relativeTolerance, tolerances); // copies them
+    N_VDestroy(tolerances);
+    check(flag, "CVodeSVtolerances");
     check(CVodeSetUserData(b.cvode, &b), "CVodeSetUserData");
     check(CVodeSetNonlinearSolver(b.cvode, b.nonlinear), "CVodeSetNonlinearSolver");
     check(CVodeSetMaxNumSteps(b.cvode, 100000), "CVodeSetMaxNumSteps");
@@ -122,6 +142,8 @@ OdeSolver::Stop OdeSolver::advance(double end)
     check(CVodeSetStopTime(b.cvode, end), "CVodeSetStopTime");
     const double before = b.t;
     const int flag = CVode(b.cvode, end, b.y, &b.t, CV_ONE_STEP);
+    if (b.thrown)
+        std::rethrow_exception(std::exchange(b.thrown, nullptr));
     check(flag, "CVode");
     b.keep();
     b.standing = b.t > before ? 0 : b.standing + 1;

@@ -9,7 +9,7 @@
 ///     ode.restart(0, {1, 0});
 ///     while (ode.advance(1.0) != OdeSolver::Stop::end) {}
 ///
-/// Errors: StepError with the name of CVODE's flag.
+/// Errors: StepError with the name of CVODE's flag; what the right-hand side throws passes through.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -37,6 +37,8 @@ class OdeSolver
     };
 
     OdeSolver(std::size_t size, double relativeTolerance, double absoluteTolerance, RightHandSide rhs);
+    /// With an absolute tolerance for each unknown.
+    OdeSolver(double relativeTolerance, const std::vector<double>& absoluteTolerances, RightHandSide rhs);
     ~OdeSolver();
     OdeSolver(const OdeSolver&) = delete;
     OdeSolver& operator=(const OdeSolver&) = delete;

@@ -3,6 +3,7 @@
 #include "base/csvTable.hpp"
 #include "constitutive/linearElastic.hpp"
 #include "reference/odeSolver.hpp"
+#include "reference/vonMisesRates.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -144,6 +145,40 @@ TEST_CASE("von Mises with Krieg and Krieg's closed form: the ODE solver, and the
         ++compared;
     }
     CHECK(compared == 8);
+}
+
+TEST_CASE("von Mises as a law: rate equations against Krieg and Krieg's closed form, in and out of the surface")
+{
+    // the same numbers as tensors: deviators along two orthonormal directions of the pi plane, turned off the axes
+    const double G = 80, R = std::sqrt(2.0 / 3) / 4, rate = 0.01;
+    const VonMisesParameters material{{2 * G * 1.3, 0.3}, 0.25};
+    const auto tensor = [](double a, double b) {
+        const double x = a / std::sqrt(2.0), y = b / std::sqrt(2.0); // (1 -1 0)/sqrt 2 and a shear of unit norm
+        return SymmetricTensor{x, -x, 0, y, 0, 0};
+    };
+    const auto angleAt = [&](double from, double t) {
+        return 2 * std::atan(std::tan(from / 2) * std::exp(-2 * G * rate * t / R));
+    };
+    const auto start = tensor(R * std::cos(2), R * std::sin(2));
+    const auto straight = tensor(rate, 0);
+    const auto exact = integrateRates(material, start, StrainPath::table({0, 1}, {SymmetricTensor{}, straight}));
+    const double end = angleAt(2, 1);
+    // at an angle of 2 rad the strain first leads inside: elastic across the circle to the angle pi - 2
+    const double chord = -2 * R * std::cos(2) / (2 * G * rate);
+    const double after = angleAt(std::acos(-1.0) - 2, 1 - chord);
+    INFO(end);
+    CHECK(distance(exact.stress.back(), tensor(R * std::cos(after), R * std::sin(after))) <= 1e-8 * R);
+    REQUIRE(exact.yieldTime);
+    CHECK(*exact.yieldTime == Approx(chord).epsilon(1e-9));
+    CHECK(exact.drift <= 1e-10);
+
+    // from an angle of 1 rad it is plastic at once
+    const auto flow = integrateRates(material, tensor(R * std::cos(1), R * std::sin(1)),
+                                     StrainPath::table({0, 1}, {SymmetricTensor{}, straight}));
+    CHECK(distance(flow.stress.back(), tensor(R * std::cos(angleAt(1, 1)), R * std::sin(angleAt(1, 1)))) <= 1e-8 * R);
+    CHECK(flow.yieldTime == std::optional(0.0));
+    CHECK_THROWS_WITH(integrateRates(material, tensor(2 * R, 0), StrainPath::table({0, 1}, {{}, straight})),
+                      Contains("start stress"));
 }
 
 TEST_CASE("the ODE solver finds events in their direction and starts anew")
