@@ -19,6 +19,7 @@
 ///     damping       { ... }     // nodal/damping.hpp; absent: none
 ///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
 #include "case/caseDirectory.hpp"
+#include "case/overrides.hpp"
 #include "dictionary/dictionary.hpp"
 #include "stepping/stepper.hpp"
 
@@ -51,5 +52,6 @@ struct SceneOfCase
 
 /// Reads all of the above for a state, and checks that nothing was left unread, that the grid of system/gridDict is the
 /// lattice the state was seeded on (its box may be wider now; the state takes it), and that materials match by name.
-SceneOfCase readScene(const CaseDirectory& folder, state::State& state);
+/// Overrides change the dictionaries as they are read.
+SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Overrides& overrides = {});
 } // namespace mpm::cases

@@ -69,6 +69,9 @@ void SolverRun::banner() const
                                                          state_.grid.cells[1], state_.grid.cells[2], state_.grid.h));
     line("method", fmt::format("{}, {}, FLIP{}", scene_.shape, stepping::stressUpdateName(s.stressUpdate),
                                s.picRate > 0 ? fmt::format(" with {:g} 1/s of PIC", s.picRate) : ""));
+    if (!overrides_.empty())
+        line("overridden", fmt::format("{}, by {}{}", overrides_.describe(), overrides_.reason(),
+                                       state_.step > 0 ? ", with which this run began" : ""));
     for (const auto& material : s.materials)
         line("material", fmt::format("{}: {}, density {:g} kg/m^3, c_p {:.1f} m/s", material.name,
                                      material.law->describe(), material.density, material.waveSpeed()));
@@ -101,6 +104,14 @@ void SolverRun::banner() const
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
         if (!note.empty())
             line("note", note);
+}
+
+void SolverRun::printPrediction(const CostPrediction& prediction) const
+{
+    for (const auto& [what, text] : predictionLines(prediction))
+        line(what, text);
+    for (const auto& [what, text] : expectedErrorLines(folder_, options_, presentCase()))
+        line(what, text);
 }
 
 void SolverRun::warnings() const
