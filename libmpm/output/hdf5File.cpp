@@ -294,10 +294,8 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
 
 void Hdf5File::followDisk()
 {
-    if (!onDisk_)
-        return;
     void* descriptor = nullptr; // of the file driver for plain files, which is the default
-    if (H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
+    if (onDisk_ && H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
         pace_.follow(*static_cast<const int*>(descriptor));
 }
 
