@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"
 #include "case/provenance.hpp"
 #include "case/strainRecorder.hpp"
@@ -22,6 +23,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     runTime_.emplace(control);
     auto record = StrainRecorder::wanted(control);
     monitor_.emplace(control, runTime_->adjustable(), !record.empty());
+    const auto fields = readFields(control);
     control.rejectUnread();
     const TimeFolder start = startFolder();
     lastStored_ = start.name;
@@ -34,6 +36,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     if (state_.particles.size() == 0)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
     scene_ = readScene(folder, state_, overrides_);
+    if (fields)
+        provideReference(state_, *fields);
     scene_.dictionaries += "// system/controlDict\n" + control.text();
     stepper_ = makeStepper(scene_.shape, state_, scene_.scene);
     stepping::beginLedger(state_, scene_.scene.materials);
