@@ -21,21 +21,51 @@ constexpr std::size_t longest = 1000;
 struct Engine
 {
     mu::Parser parser;
-    std::vector<double> values;
+    std::vector<double> values; ///< of the variables, then of the formulas among the constants
 };
+
+bool isName(const std::string& s);
+
+/// Does a formula name this?
+bool names(const std::string& text, const std::string& name)
+{
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || !isName("_" + text.substr(at - 1, 1))) && (end == text.size() || !isName("_" + text.substr(end, 1))))
+            return true;
+    }
+    return false;
+}
+
+/// "R = (sqrt(X^2 + Y^2)), ... , text" with the formulas that text needs, in their order: muParser evaluates all from left
+/// to right and returns the last.
+std::string withFormulas(const std::string& text, const Constants& constants)
+{
+    std::string needed = text, out;
+    for (auto formula = constants.formulas.rbegin(); formula != constants.formulas.rend(); ++formula)
+        if (names(needed, formula->first))
+        {
+            needed += ' ' + formula->second.text;
+            out = formula->first + "=(" + formula->second.text + ")," + out;
+        }
+    return out + text;
+}
 
 std::unique_ptr<Engine> makeEngine(const std::string& text, const std::vector<std::string>& variables,
                                    const Constants& constants)
 {
     auto engine = std::make_unique<Engine>();
-    engine->values.assign(variables.size(), 0.0);
+    engine->values.assign(variables.size() + constants.formulas.size(), 0.0);
     auto& parser = engine->parser;
     parser.ClearConst();
     parser.DefineConst("pi", std::numbers::pi);
-    for (const auto& [name, value] : constants)
+    for (const auto& [name, value] : constants.numbers)
         parser.DefineConst(name, value);
     for (std::size_t k = 0; k < variables.size(); ++k)
         parser.DefineVar(variables[k], &engine->values[k]);
+    for (std::size_t k = 0; k < constants.formulas.size(); ++k)
+        parser.DefineVar(constants.formulas[k].first, &engine->values[variables.size() + k]);
     parser.SetExpr(text);
     return engine;
 }
@@ -80,7 +110,9 @@ std::string allowedNames(const std::vector<std::string>& variables, const Consta
 {
     std::vector<std::string> names = variables;
     names.push_back("pi");
-    for (const auto& [name, value] : constants)
+    for (const auto& [name, value] : constants.numbers)
+        names.push_back(name);
+    for (const auto& [name, value] : constants.formulas)
         names.push_back(name);
     return joinWords(names, ", ") + " and functions";
 }
@@ -106,7 +138,9 @@ std::string complaint(const mu::ParserError& error, const std::string& text, con
     {
         std::vector<std::string> known = functionNames();
         known.insert(known.end(), variables.begin(), variables.end());
-        for (const auto& [constant, value] : constants)
+        for (const auto& [constant, value] : constants.numbers)
+            known.push_back(constant);
+        for (const auto& [constant, value] : constants.formulas)
             known.push_back(constant);
         known.push_back("pi");
         const std::string near = nearestWord(name, known);
@@ -142,7 +176,7 @@ struct Expression::Formula
                 return engine;
             }
         }
-        return makeEngine(text, variables, constants);
+        return makeEngine(withFormulas(text, constants), variables, constants);
     }
     void giveBack(std::unique_ptr<Engine> engine) const
     {
@@ -160,13 +194,17 @@ Constants readConstants(const Dictionary& d, const std::vector<std::string>& var
     const auto functions = functionNames();
     for (const auto& word : own->words())
     {
-        const double value = own->get<double>({word, "a constant"});
+        const auto value = own->get<FormulaText>({word, "a number, or a formula of names before it"});
         if (!isName(word))
             own->fail(word, quoted(word), "a name of letters, digits and _");
         if (word == "pi" || std::find(variables.begin(), variables.end(), word) != variables.end() ||
             std::find(functions.begin(), functions.end(), word) != functions.end())
             own->fail(word, "a name that means something in formulas", "another name");
-        constants[word] = value;
+        const Expression formula(value, word, variables, constants);
+        if (const auto number = formula.number())
+            constants.numbers[word] = *number;
+        else
+            constants.formulas.emplace_back(word, value);
     }
     return constants;
 }
@@ -201,10 +239,11 @@ Expression::Expression(const FormulaText& given, const std::string& word, const 
     else
         try
         {
-            auto engine = formula->take();
+            auto engine = makeEngine(given.text, variables, constants); // alone, for the places of mistakes
             engine->parser.Eval();
             if (engine->parser.GetNumResults() != 1)
                 fail(fmt::format(", {} values separated by ','; allowed is one", engine->parser.GetNumResults()));
+            engine = formula->take();
             for (const auto& [name, address] : engine->parser.GetUsedVar())
                 formula->used.push_back(name);
             formula->giveBack(std::move(engine));

@@ -2,7 +2,7 @@
 /// Formulas a user writes for a number that varies, evaluated by muParser.
 ///
 ///     value ("A*sin(pi*X)*cos(c*t)" 0 -9.81);     // numbers, or formulas in double quotes; in 2D the third is 0 or absent
-///     constants { A 0.05; c 100; }                // names of one's own
+///     constants { A 0.05; c 100; R "sqrt(X^2 + Y^2)"; }   // names of one's own; a formula knows those before it
 ///
 /// Names: the variables of the place where the formula stands (x y z X Y Z t ...), the constants, pi. Operators + - * / ^
 /// < > <= >= == != && || and `condition ? a : b`; -2^2 is -4. Functions sin cos tan asin acos atan atan2 sinh cosh tanh
@@ -17,7 +17,12 @@
 
 namespace mpm::dictionary
 {
-using Constants = std::map<std::string, double>;
+/// Names of one's own: numbers, and formulas of what stands before them, evaluated once for each point.
+struct Constants
+{
+    std::map<std::string, double> numbers;
+    std::vector<std::pair<std::string, FormulaText>> formulas;
+};
 
 /// The dictionary `constants` inside d, if it is there. None may be called like one of the variables, a function or pi.
 Constants readConstants(const Dictionary& d, const std::vector<std::string>& variables);

@@ -58,7 +58,7 @@ TEST_CASE("values of formulas, to the last bit those of C")
     CHECK(value("x + 2*y") == 8);
     CHECK(value("-2^2") == -4);
     CHECK(value("2^-1") == 0.5);
-    CHECK(value("A*sin(pi*X)*cos(c*t)", {{"A", 0.05}, {"c", 100}}) ==
+    CHECK(value("A*sin(pi*X)*cos(c*t)", {{{"A", 0.05}, {"c", 100}}, {}}) ==
           0.05 * std::sin(std::numbers::pi * 0.25) * std::cos(100 * 0.1));
     CHECK(value("pi") == std::numbers::pi);
     CHECK(value("log(x)") == std::log(2.0));
@@ -88,7 +88,7 @@ TEST_CASE("every mistake is told with its place and what is allowed")
     const std::string start = "constant/bodyForce:4: value: found ";
     CHECK(message("2*expp(x)") == start + "'\"2*expp(x)\"', wrong at 'expp', an unknown name (did you mean 'exp'?); "
                                           "allowed x, y, X, Y, t, pi and functions, other names in constants { }");
-    CHECK(message("amplitud*t", {{"amplitude", 1}}).find("(did you mean 'amplitude'?); allowed x, y, X, Y, t, pi, "
+    CHECK(message("amplitud*t", {{{"amplitude", 1}}, {}}).find("(did you mean 'amplitude'?); allowed x, y, X, Y, t, pi, "
                                                           "amplitude and functions") != std::string::npos);
     CHECK(message("Z") .find("wrong at 'Z', an unknown name") != std::string::npos); // 2D knows no Z
     CHECK(message("_pi").find("an unknown name") != std::string::npos);
@@ -128,7 +128,26 @@ TEST_CASE("vectors of formulas in a dictionary, with constants")
     CHECK(messageOfDictionary("value (0 0); constants { sin 1; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { pi 3; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { a-b 3; }").find("a name of letters") != std::string::npos);
-    CHECK(messageOfDictionary("value (0 0); constants { A two; }").find("allowed a number") != std::string::npos);
+    CHECK(messageOfDictionary("value (0 0); constants { A two; }").find("A: found '\"two\"', wrong at 'two'") != std::string::npos);
+}
+
+TEST_CASE("constants may be formulas of those before them")
+{
+    const auto d = Dictionary::fromText("value (\"r*x/R + c*t\" \"A*y\" 0);\n"
+                                        "constants { A 2; c 10; R \"sqrt(x^2 + y^2)\"; unused \"1/0\"; r \"A*R^2\"; }");
+    const auto constants = readConstants(d, variables);
+    CHECK(constants.numbers.size() == 2);
+    const auto v = readVectorExpression(d, "value", "", unit::acceleration, 2, variables, constants, true);
+    CHECK(v[0].evaluate({3, 4, 0, 0, 0.1}) == Approx(2 * 5 * 3 + 1).epsilon(1e-15));
+    CHECK(v[0].evaluate({6, 8, 0, 0, 0.2}) == Approx(2 * 10 * 6 + 2).epsilon(1e-15));
+    CHECK(v[0].uses("y")); // through R
+    CHECK_FALSE(v[1].uses("x"));
+    CHECK(v[0].text() == "r*x/R + c*t");
+    CHECK(messageOfDictionary("value (0 0); constants { R \"R + 1\"; }").find("R: found '\"R + 1\"', wrong at 'R', an unknown") !=
+          std::string::npos);
+    CHECK(messageOfDictionary("value (0 0); constants { s \"2*R\"; R 1; }").find("unknown name") != std::string::npos);
+    CHECK(messageOfDictionary("value (\"Radius\" 0); constants { Radiu \"x\"; }").find("did you mean 'Radiu'") !=
+          std::string::npos);
 }
 
 TEST_CASE("the first value that is not finite is named, and threads get the same bits")
