@@ -38,7 +38,7 @@ struct Chunk
     int count = lanes;
     alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
     alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
-    const TensorLanes<dim>* F = nullptr;   ///< in: deformation gradient at the end of the step; hyperelastic laws need it
+    const TensorLanes<dim>* F = nullptr; ///< in: deformation gradient at the end of the step; hyperelastic laws need it
     /// out: plastic work (sigma_start + sigma_end)/2 : dEps_p per current volume [J/m^3], so that elastic + plastic
     /// adds up to the work of the mid-step stress
     alignas(64) double plasticWork[lanes];
@@ -82,8 +82,8 @@ class Law
     virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };
 
-/// A law whose stress follows from a strain energy W(F) per initial volume: sigma = dW/dF F^T/det F. Reads Chunk::F, and
-/// neither the stress at the start nor the strain increment; nothing drifts, and no stress is left where F = I.
+/// A law whose stress follows from a strain energy W(F) per initial volume: sigma = dW/dF F^T/det F. Reads Chunk::F,
+/// and neither the stress at the start nor the strain increment; nothing drifts, and no stress is left where F = I.
 class Hyperelastic : public Law
 {
   public:

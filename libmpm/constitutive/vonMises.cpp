@@ -7,7 +7,8 @@ namespace mpm::constitutive
 {
 namespace
 {
-/// Only the deviator yields, so the plastic work of the mid-step stress is (s_start + s_end)/2 : (s_trial - s_end)/(2 G).
+/// Only the deviator yields, so the plastic work of the mid-step stress is (s_start + s_end)/2 : (s_trial - s_end)/(2
+/// G).
 template <int dim>
 void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, double yieldStress)
 {
@@ -56,13 +57,14 @@ VonMises::VonMises(const ElasticModuli& moduli, double yieldStress) : moduli_(mo
 VonMises VonMises::read(const dictionary::Dictionary& material)
 {
     const ElasticModuli moduli = readModuli(material);
-    return {moduli, material.get<double>({"yieldStress", "yield stress in uniaxial tension",
-                                          dictionary::unit::pressure, dictionary::Bound::positive()})};
+    return {moduli, material.get<double>({"yieldStress", "yield stress in uniaxial tension", dictionary::unit::pressure,
+                                          dictionary::Bound::positive()})};
 }
 
 std::string VonMises::describe() const
 {
-    return fmt::format("vonMises: E {:g} Pa, nu {:g}, yieldStress {:g} Pa", moduli_.young, moduli_.poisson, yieldStress_);
+    return fmt::format("vonMises: E {:g} Pa, nu {:g}, yieldStress {:g} Pa", moduli_.young, moduli_.poisson,
+                       yieldStress_);
 }
 
 void VonMises::update(Chunk<2>& chunk) const

@@ -281,7 +281,7 @@ GROUPS = [
         solve("a body force out of the plane", write(FORCE, 'value (0 0 "x");\n')),
         solve("a body force without its value", write(FORCE, "constants { A 1; }\n")),
         solve("a constant that is a variable", write(FORCE, 'value ("t" 0); constants { t 1; }\n')),
-        solve("a constant that is no number", write(FORCE, 'value ("A" 0); constants { A one; }\n')),
+        solve("a constant of a later one", write(FORCE, 'value ("A" 0); constants { A "2*B"; B 1; }\n')),
         solve("a field that does not exist", append(CONTROL, "fields (referencePositon);\n")),
         solve("a time step beyond the stability limit", edit(CONTROL, "1e-3;", "4e-3;")),
         solve("stress last at this time step", edit(SCHEMES, "MUSL;           //", "USL;           //")),
