@@ -101,6 +101,8 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     ws.ahead.some(5);
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workTurned);
     chunk.F = &ws.F;
+    chunk.L = &ws.L;
+    chunk.dt = dt;
     callLaws(first, count, chunk);
     ws.ahead.some(5);
 

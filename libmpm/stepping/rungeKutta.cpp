@@ -155,6 +155,7 @@ void RungeKutta::finish()
 {
     Clock clock(times_.toParticles);
     const auto summary = equations_->unpack(sum_.data(), state_);
+    wrapPositions(state_);
     state_.ledger.kineticEnergy = summary.kineticEnergy;
     state_.largestJacobian = summary.largestJacobian;
     report_.strainEnergy = summary.strainEnergy;
