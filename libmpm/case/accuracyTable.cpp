@@ -162,6 +162,8 @@ AccuracyTable::AccuracyTable(const std::filesystem::path& file, const std::strin
         throw InputError({file.string()},
                          "found no such table; run accuracyCost in this case first (system/accuracyCostDict)");
     const auto table = CsvTable::read(file);
+    for (const auto* column : {"row", "cellSize", "shape", "errorMeasure", "error", "cpuSeconds"})
+        table.column(column); // told even where no row asks
     std::vector<std::string> measures;
     for (const auto& line : table.rows())
     {

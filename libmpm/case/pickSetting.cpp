@@ -109,7 +109,7 @@ Overrides overridesFor(const AccuracyRow& row, const PresentCase& present, const
 
 std::filesystem::path accuracyTablePath(const CaseDirectory& folder)
 {
-    return folder.folder() / "postProcessing" / "accuracyCost.csv";
+    return (folder.folder() / "postProcessing" / "accuracyCost.csv").lexically_normal();
 }
 
 void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, const PresentCase& present)
@@ -224,12 +224,20 @@ class Picker
             c.predicted = Seconds{HUGE_VAL, HUGE_VAL};
             return;
         }
-        const double steps = c.row->setting.splitting ? c.row->particleSteps : p.count.steps * double(p.particles);
-        Seconds seconds = p.rehearsal.start, stepping = steps * p.rehearsal.particleStep.median;
+        const double particleSteps = double(p.particles) * p.count.steps;
+        const Seconds stepping = (c.row->setting.splitting ? c.row->particleSteps / particleSteps : 1.0) * p.stepping;
         factor_ = stepping.wall / c.row->cpuSeconds;
+        Seconds seconds = p.rehearsal.start;
         seconds += stepping;
         seconds += p.output;
         c.predicted = seconds;
+    }
+
+    /// "in about 12 s", where this machine's speed is known.
+    std::string timeText(const AccuracyRow& row) const
+    {
+        return factor_ ? "in about " + formatDuration(*factor_ * row.cpuSeconds)
+                       : fmt::format("in {} where the table was made", formatDuration(row.cpuSeconds));
     }
 
     /// What a row is likely to take, here.
@@ -300,9 +308,8 @@ class Picker
         const auto* row = betterElsewhere(pick);
         if (!row)
             return "";
-        return fmt::format("\n    another seeding does: {} {:.3g} in about {}, {}\n    it needs {}", table_.measure(),
-                           row->bound(), formatDuration(factor_.value_or(1) * row->cpuSeconds), rowText(*row),
-                           seedingLines(*row));
+        return fmt::format("\n    another seeding does: {} {:.3g} {}, {}\n    it needs {}", table_.measure(),
+                           row->bound(), timeText(*row), rowText(*row), seedingLines(*row));
     }
 
     [[noreturn]] void failSeeding() const
@@ -331,8 +338,8 @@ class Picker
                                                     : "stay as they are; this run takes " + best.overrides.describe());
         if (const auto* other = betterElsewhere(best.row))
         {
-            line("better still", fmt::format("{} {:.3g} in about {}: {}", table_.measure(), other->bound(),
-                                             formatDuration(factor_.value_or(1) * other->cpuSeconds), rowText(*other)));
+            line("better still",
+                 fmt::format("{} {:.3g} {}: {}", table_.measure(), other->bound(), timeText(*other), rowText(*other)));
             line("", "it needs " + seedingLines(*other));
         }
         fmt::print("\n");

@@ -116,10 +116,12 @@ class Prediction(Case):
         self.found(r"on disk +(4) states of .*, of which the last 2 stay")
 
     def test_steps_that_adapt_are_an_estimate(self):
+        self.no_splitting()
         self.change("system/controlDict", "adjustTimeStep", "yes")
         self.dry_run()
         estimate, step, falling = self.found(
             r"steps +about (\d+), estimated from the step allowed now, ([\d.e-]+) s; (\d+) at the speed of a fall")
+        self.found(r"the middle between (\S+) \w+, as the state is now, and \S+ \w+, with the larger number of steps")
         self.run_utility("mpmSolve")
         real = int(self.found(r"Done: (\d+) steps"))
         self.assertLessEqual(int(estimate) - 1, real)
@@ -130,6 +132,12 @@ class Prediction(Case):
         self.found(r"predicted +(\S+ \w+).* if no particle splits")
         self.assertEqual(self.found(r"if each splits once, at the start \((\d+) particles"), "7200")
         self.assertEqual(self.found(r"at most (\d+) particles by maxGeneration and maxParticles"), "460800")
+
+    def test_domains_that_will_be_wider_make_a_range(self):
+        self.no_splitting()
+        self.change("system/mpmSchemes", "shape", "cpGIMP")
+        self.dry_run()
+        self.found(r"speed +([\d.]+) ns per particle and step .*; ([\d.]+) when domains are wider than a cell")
 
     def test_a_rehearsal_changes_no_bit_of_the_run(self):
         self.no_splitting()
@@ -143,6 +151,13 @@ class Prediction(Case):
         self.assertIn("say so already", self.log)
         with h5py.File(self.case / "0.1" / "state.h5") as file:
             self.assertTrue((file["particles/position"][()] == first).all())
+
+    def test_nothing_beyond_the_end_is_rehearsed(self):
+        self.no_splitting()
+        self.change("system/controlDict", "endTime", "0.003")
+        self.dry_run()
+        self.found(r"rehearsed +(3) steps in")
+        self.found(r"predicted +([\d.]+) ")
 
     def test_a_step_that_cannot_be_taken_is_said(self):
         self.no_splitting()

@@ -118,5 +118,5 @@ TEST_CASE("mistakes in a table have their place")
     CHECK_THROWS_WITH(table(folder, line("a", "0", "uGIMP", "0.1")), Contains("a number > 0"));
     CHECK_THROWS_WITH(table(folder, line("a", "0.1", "uGIMP", "-0.1")), Contains("a number >= 0"));
     std::ofstream(folder / "other.csv") << "row,cellSize\na,0.1\n";
-    CHECK_THROWS_WITH(AccuracyTable(folder / "other.csv"), Contains("errorMeasure"));
+    CHECK_THROWS_WITH(AccuracyTable(folder / "other.csv"), Contains("found no column shape"));
 }
