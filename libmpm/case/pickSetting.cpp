@@ -1,5 +1,6 @@
 #include "case/pickSetting.hpp"
 
+#include "base/csvTable.hpp"
 #include "base/error.hpp"
 #include "base/terminal.hpp"
 #include "base/version.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 
 namespace mpm::cases
 {
@@ -112,7 +112,7 @@ std::filesystem::path accuracyTablePath(const CaseDirectory& folder)
     return (folder.folder() / "postProcessing" / "accuracyCost.csv").lexically_normal();
 }
 
-void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, const PresentCase& present)
+void requireSameCase(const ErrorTable& table, const CaseDirectory& folder, const PresentCase& present)
 {
     const auto refuse = [&](const std::string& found) {
         throw InputError(
@@ -123,7 +123,7 @@ void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, co
     {
         if (versionOf(row.version) != projectVersion())
             refuse(fmt::format("row {} of libmpm {}, this is {}", row.name, versionOf(row.version), projectVersion()));
-        if (std::abs(row.endTime - present.endTime) > 1e-9 * std::abs(present.endTime))
+        if (std::abs(row.endTime - present.endTime) > 2 * row.setting.deltaT) // a run ends within a step of endTime
             refuse(fmt::format("row {} of a run to {:g} s, endTime is {:g} s", row.name, row.endTime, present.endTime));
         if (row.setting.splitting && !present.setting.splitting)
             refuse(fmt::format("row {} with splitting, which system/mpmSchemes does not have", row.name));
@@ -147,7 +147,7 @@ Lines expectedErrorLines(const CaseDirectory& folder, const Options& options, co
             throw InputError("-errorMeasure: found no postProcessing/accuracyCost.csv; run accuracyCost first");
         return {};
     }
-    const AccuracyTable table(accuracyTablePath(folder), options.value("errorMeasure"));
+    const ErrorTable table(accuracyTablePath(folder), options.value("errorMeasure"));
     try
     {
         requireSameCase(table, folder, present);
@@ -347,7 +347,7 @@ class Picker
 
     const CaseDirectory& folder_;
     const Options& options_;
-    AccuracyTable table_;
+    ErrorTable table_;
     bool byTime_;
     double limit_;
     std::string reason_;

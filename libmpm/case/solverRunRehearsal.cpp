@@ -205,9 +205,13 @@ CostPrediction SolverRun::rehearse()
         recorder_->rehearse(strains.path());
     rehearseSteps(r, p.count.steps, r.start.wall);
     r.stepBytes = r.steps > 0 ? strains.bytes() / double(r.steps) : 0;
-    if (r.fault.empty())
-        rehearseOutput(r);
     r.peakBytes = peakMemory();
+    if (r.fault.empty())
+    {
+        rehearseOutput(r);
+        const double inMemory = std::min(r.stateBytes, r.stateBytes / double(p.particles) * double(wholeState));
+        r.peakBytes = std::max(r.peakBytes, peakMemory() - inMemory); // of the file, which the run has on a disk
+    }
     r.seconds = processSeconds().wall - begin.wall;
     addUp(p);
     return p;

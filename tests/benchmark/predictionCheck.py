@@ -42,7 +42,7 @@ SCENES = {
     "columnCpGIMP": column(2, (SCHEMES, "shape", "cpGIMP")),
     "columnAdaptive": column(2, (CONTROL, "adjustTimeStep", "yes")),
     "column3D": (HARD / "threadsAndRestart", [(GRID, "cellSize", "0.125"), (CONTROL, "deltaT", "2e-3")]),
-    "footing": (HARD / "undrainedFooting", [(GRID, "cellSize", "0.125"), (CONTROL, "deltaT", "1.5e-4")]),
+    "footing": (HARD / "undrainedFooting", [(GRID, "cellSize", "0.0625"), (CONTROL, "deltaT", "1.5e-4")]),
     "elasticStrip": (HARD / "incompressibleStrip", [(CONTROL, "endTime", "4")]),
     "elasticBars": (HARD / "stiffnessRatio", []),
 }

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import h5py
 
-import accuracyTable
+import errorTable
 from wrongInput import snapshot
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -145,7 +145,7 @@ class Prediction(Case):
         self.run_utility("mpmSolve")
         with h5py.File(self.case / "0.1" / "state.h5") as file:
             first = file["particles/position"][()]
-        accuracyTable.write(self.case, [accuracyTable.row("same", endTime=0.1)])
+        errorTable.write(self.case, [errorTable.row("same", endTime=0.1)])
         self.change("system/controlDict", "startFrom", "firstTime")
         self.run_utility("mpmSolve", "-overwrite", "-withinError", "0.5")
         self.assertIn("say so already", self.log)
@@ -175,17 +175,17 @@ class Picked(Case):
 
     def setUp(self):
         super().setUp()
-        rows = [accuracyTable.row("plain", endTime=0.1, error=0.05, cpuSeconds=0.01),
-                accuracyTable.row("followed", endTime=0.1, error=0.01, cpuSeconds=0.012, shape="cpGIMP", deltaT=0.0005,
+        rows = [errorTable.row("plain", endTime=0.1, error=0.05, cpuSeconds=0.01),
+                errorTable.row("followed", endTime=0.1, error=0.01, cpuSeconds=0.012, shape="cpGIMP", deltaT=0.0005,
                                   courant=0.4237),
-                accuracyTable.row("slow", endTime=0.1, error=0.004, cpuSeconds=1000, deltaT=1e-6, courant=0.0008474),
-                accuracyTable.row("unresolved", endTime=0.1, error=0, cpuSeconds=0.001, stressUpdate="USF",
+                errorTable.row("slow", endTime=0.1, error=0.004, cpuSeconds=1000, deltaT=1e-6, courant=0.0008474),
+                errorTable.row("unresolved", endTime=0.1, error=0, cpuSeconds=0.001, stressUpdate="USF",
                                   referenceError=0.5),
-                accuracyTable.row("fine", endTime=0.1, error=0.002, cpuSeconds=0.05, cellSize=0.13333333333333333,
+                errorTable.row("fine", endTime=0.1, error=0.002, cpuSeconds=0.05, cellSize=0.13333333333333333,
                                   referenceError=1e-4),
-                accuracyTable.row("fast", endTime=0.1, error="", cpuSeconds="", status="failed"),
-                accuracyTable.row("pressed", endTime=0.1, errorMeasure="basePressure", error=0.3, cpuSeconds=0.01)]
-        accuracyTable.write(self.case, rows)
+                errorTable.row("fast", endTime=0.1, error="", cpuSeconds="", status="failed"),
+                errorTable.row("pressed", endTime=0.1, errorMeasure="basePressure", error=0.3, cpuSeconds=0.01)]
+        errorTable.write(self.case, rows)
 
     def test_within_error_takes_the_cheapest(self):
         self.run_utility("mpmSolve", "-withinError", "0.01")

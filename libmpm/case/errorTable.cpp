@@ -1,5 +1,6 @@
-#include "case/accuracyTable.hpp"
+#include "case/errorTable.hpp"
 
+#include "base/csvTable.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -156,7 +157,7 @@ std::string RunSetting::describe() const
                        cellSize, particlesPerCell, deltaT, courant);
 }
 
-AccuracyTable::AccuracyTable(const std::filesystem::path& file, const std::string& measure) : file_(file)
+ErrorTable::ErrorTable(const std::filesystem::path& file, const std::string& measure) : file_(file)
 {
     if (!std::filesystem::exists(file))
         throw InputError({file.string()},
@@ -187,7 +188,7 @@ AccuracyTable::AccuracyTable(const std::filesystem::path& file, const std::strin
     }
 }
 
-const AccuracyRow* AccuracyTable::nearest(const RunSetting& setting) const
+const AccuracyRow* ErrorTable::nearest(const RunSetting& setting) const
 {
     const AccuracyRow* best = nullptr;
     for (const auto& row : rows_)
@@ -196,7 +197,7 @@ const AccuracyRow* AccuracyTable::nearest(const RunSetting& setting) const
     return best;
 }
 
-std::optional<ExpectedError> AccuracyTable::expect(const RunSetting& setting) const
+std::optional<ExpectedError> ErrorTable::expect(const RunSetting& setting) const
 {
     const AccuracyRow* near = nearest(setting);
     if (!near)
