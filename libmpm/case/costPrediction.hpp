@@ -12,13 +12,14 @@
 /// Seconds are given twice: of the processor (all threads), and of the clock on the wall as busy as the machine was
 /// during the rehearsal.
 ///
-/// The state at the start is not the state later. What drives the price of a particle-step, on the collapsing column
-/// (h/2, 0 to 2.5 s, ns at the start and at its dearest): uGIMP 62 to 66, as fewer particles share a node; cpGIMP 65 to
-/// 95, because domains wider than a cell reach four nodes an axis in place of three, and one of 64 neighbours is
-/// enough. Laws cost the same whether soil yields or not (they are computed without branches; substeps excepted). So
-/// where domains follow the stretch, wide ones are rehearsed too. Steps that adapt get smaller with speed and as soil
-/// loosens: they are counted as allowed now, and at the speed of a fall through the body's own height in soil of twice
-/// its volume. Both make a range, from `least` to `most`; the prediction is its middle.
+/// The state at the start is not the state later. What a particle-step costs on the collapsing column (cells of 2/15 m,
+/// ns of processor time at the start and at its dearest): uGIMP 60 to 70, as fewer particles share a node and a tile;
+/// cpGIMP 65 to 95, because domains wider than a cell reach four nodes an axis in place of three, and one of 64
+/// neighbours is enough. Laws cost the same whether soil yields or not (they are computed without branches; substeps
+/// excepted). So where domains follow the stretch, wide ones are rehearsed too. Steps that adapt get smaller with speed
+/// and as soil loosens: they are counted as allowed now, and at the speed of a fall through the body's own height in
+/// soil of twice its volume. Both make a range, from `least` to `most`; the prediction is its middle. Spreading is not
+/// foreseen: a body that runs out far takes up to 15 % longer than predicted.
 ///
 /// What cannot be known: how busy the machine will be, what a disk does that is slower than the steps, and which
 /// particles will split.
