@@ -258,6 +258,7 @@ catch (const InputError& error)
 void SolverRun::writeRow()
 {
     const Clock clock(profile_.history);
+    const ProcessorClock processor(profile_.writingProcessor);
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
@@ -266,6 +267,7 @@ void SolverRun::writeRow()
 void SolverRun::writeState(bool outOfTurn)
 {
     const Clock clock(profile_.output);
+    const ProcessorClock processor(profile_.writingProcessor);
     finishWriting();
     writingName_ = written_->next(state_, outOfTurn);
     writtenStep_ = state_.step;

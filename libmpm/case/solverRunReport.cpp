@@ -135,6 +135,7 @@ void SolverRun::summary()
 {
     {
         const Clock clock(profile_.output);
+        const ProcessorClock processor(profile_.writingProcessor);
         finishWriting();
     }
     progress_->finish();
