@@ -28,9 +28,28 @@ double seconds(const timeval& t)
     return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
 }
 
+/// The signals that may come for both, held back around fork: a child that takes one by its parent's handler loses it.
+sigset_t endings()
+{
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        sigaddset(&set, signal);
+    return set;
+}
+
 /// In the child, between fork and exec: only calls that are safe there.
 [[noreturn]] void become(const char* program, char* const* argv, char* const* environment, int log, pid_t parent)
 {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    {
+        struct sigaction now = {};
+        ::sigaction(signal, nullptr, &now);
+        if (now.sa_handler != SIG_IGN)
+            ::signal(signal, SIG_DFL);
+    }
+    const sigset_t held = endings();
+    ::sigprocmask(SIG_UNBLOCK, &held, nullptr);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent)
         ::_exit(127);
@@ -79,9 +98,13 @@ ProcessResult runProcess(const fs::path& program, const std::vector<std::string>
     const auto argv = pointers(words), variables = pointers(environment);
     const pid_t parent = ::getpid();
     const double begin = now();
+    const sigset_t held = endings();
+    sigset_t before;
+    ::pthread_sigmask(SIG_BLOCK, &held, &before);
     const pid_t child = ::fork();
     if (child == 0)
         become(words[0].c_str(), argv.data(), variables.data(), file, parent);
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     ::close(file);
     ProcessResult result;
     if (child < 0)

@@ -44,9 +44,9 @@ std::string orders(const Evaluation& e, const Lines& lines)
         for (const auto* line : lines)
         {
             auto family = e.facts[line->row].declared;
-            for (const std::string word : inSpace ? std::vector<std::string>{"cellSize"}
-                                                  : std::vector<std::string>{"courant", "deltaT"})
-                family.erase(word);
+            for (const char* word : {"cellSize", "courant", "deltaT"})
+                if (inSpace == (word == std::string("cellSize")))
+                    family.erase(word);
             if (!seen.emplace(inSpace, family).second)
                 continue;
             std::vector<double> sizes, errors;

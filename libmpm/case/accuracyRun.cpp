@@ -196,6 +196,7 @@ class Work
         if (todo_.empty())
             return std::move(results_);
         progress_ = std::make_unique<Progress>("accuracyCost", 0, all_);
+        progress_->inPieces();
         std::vector<std::thread> others;
         for (int i = 1; i < options_.sideBySide; ++i)
             others.emplace_back([this] { workOff(); });
