@@ -4,6 +4,7 @@
 #include "case/accuracyText.hpp"
 #include "case/gridFromDict.hpp"
 #include "case/readScene.hpp"
+#include "case/readSchemes.hpp"
 #include "case/runTime.hpp"
 #include "output/csvSeries.hpp"
 #include "output/replaceFile.hpp"
@@ -181,11 +182,33 @@ RowFacts AccuracyCase::facts(const MatrixRow& row) const
     {
         out.refused = error.what();
     }
+    if (out.refused.empty())
+        out.refused = refusedSchemes(row, out);
     if (out.effective.at("splitting") == "on" && own_.at("splitting") == "off")
         out.refused = "splitting on: the case has no dictionary `splitting` in system/mpmSchemes";
     if (row.setting.count("order") && !hasOrder(out.effective.at("transfer")))
         out.refused = "order: transfer " + out.effective.at("transfer") + " has none, XPIC and FMPM have";
     return out;
+}
+
+/// What the solver would say of the row's mpmSchemes; nothing where an #include keeps us from asking.
+std::string AccuracyCase::refusedSchemes(const MatrixRow& row, const RowFacts& facts) const
+{
+    const auto text = changedText(schemeFile, row.setting, facts);
+    if (text.find("#include") != std::string::npos)
+        return "";
+    try
+    {
+        const auto schemes = Dictionary::fromText(text, schemeFile);
+        stepping::Scene scene;
+        readSchemes(schemes, scene);
+        schemes.rejectUnread();
+        return "";
+    }
+    catch (const InputError& error)
+    {
+        return error.what();
+    }
 }
 
 std::string AccuracyCase::changedText(const std::string& file, const Setting& changes, const RowFacts& facts) const

@@ -41,6 +41,7 @@ class AccuracyCase
 
   private:
     Setting effective(const MatrixRow& row) const;
+    std::string refusedSchemes(const MatrixRow& row, const RowFacts& facts) const;
     std::string changedText(const std::string& file, const Setting& changes, const RowFacts& facts) const;
 
     const CaseDirectory& folder_;

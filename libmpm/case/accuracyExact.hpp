@@ -9,11 +9,10 @@
 ///         stress          (0 "-80*10*(50 - Y)" 0 0);              // [Pa] xx yy zz xy, in 3D also yz zx
 ///     }
 ///
-/// X Y Z are material positions (those of the first state), t the time. Position and displacement give each other.
+/// Numbers, or formulas in double quotes (dictionary/expression.hpp). X Y Z are material positions (those of the first state), t the time. Position and displacement give each other.
 #include "base/types.hpp"
-#include "dictionary/dictionary.hpp"
+#include "dictionary/expression.hpp"
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,15 +22,13 @@ namespace mpm::cases
 class ExactSolution
 {
   public:
-    using Function = std::function<double(const Vector3& X, double t)>;
-
     ExactSolution() = default;
     ExactSolution(const dictionary::Dictionary& exact, int dim);
 
-    bool has(const std::string& field) const { return functions_.count(field) > 0; }
+    bool has(const std::string& field) const;
     double value(const std::string& field, int component, const Vector3& X, double t) const;
 
   private:
-    std::map<std::string, std::vector<Function>> functions_;
+    std::map<std::string, std::vector<dictionary::Expression>> functions_;
 };
 } // namespace mpm::cases
