@@ -11,12 +11,23 @@ inline double now()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+inline double readClock(clockid_t clock)
+{
+    timespec t{};
+    ::clock_gettime(clock, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
 /// [s], user and system, of all threads of this process.
 inline double processorNow()
 {
-    timespec t{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+    return readClock(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+/// The same of the calling thread.
+inline double threadProcessorNow()
+{
+    return readClock(CLOCK_THREAD_CPUTIME_ID);
 }
 
 template <double (*Now)()>

@@ -1,5 +1,6 @@
 #include "case/readScene.hpp"
 
+#include "case/expressionForce.hpp"
 #include "case/gridFromDict.hpp"
 #include "case/makeStepper.hpp"
 #include "case/readSchemes.hpp"
@@ -27,6 +28,7 @@ std::vector<constitutive::Material> readMaterials(const Dictionary& d)
         material.law = constitutive::makeLaw(m);
         m.passOver("initialStress", "stress at the start, applied by seedParticles");
         m.passOver("initialVelocity", "velocity at the start, applied by seedParticles");
+        m.passOver("constants", "names for numbers in initialVelocity");
         materials.push_back(std::move(material));
     }
     if (materials.empty())
@@ -299,6 +301,22 @@ std::vector<constitutive::Material> matchMaterials(const Dictionary& d, const st
     }
     return out;
 }
+/// A hyperelastic law makes stress from the deformation alone: what a state of step 0 holds would vanish unseen.
+void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Material>& materials,
+                      const state::State& state)
+{
+    const auto& p = state.particles;
+    for (std::size_t i = 0; i < std::size_t(p.size()) && state.step == 0; ++i)
+        for (int k = 0; k < stressComponents(p.dim); ++k)
+            if (const auto& m = materials[std::size_t(p.material[i])];
+                p.stress[std::size_t(k)][i] != 0 && m.law->hyperelastic())
+                throw InputError(d.where(m.name),
+                                 fmt::format("{}: found law {}, whose stress follows from the deformation since the start, "
+                                             "and particle {} with {} {:g} Pa at the start; allowed: initialStress of type "
+                                             "none (seedParticles -overwrite)",
+                                             m.name, m.law->name(), p.id[i], stressNames[std::size_t(k)],
+                                             double(p.stress[std::size_t(k)][i])));
+}
 } // namespace
 
 SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
@@ -311,9 +329,18 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
     };
     read.reserve(8);
     takeGrid(open("system/gridDict"), state);
-    out.scene.materials = matchMaterials(open("constant/materialProperties"), state);
+    const Dictionary& materialProperties = open("constant/materialProperties");
+    out.scene.materials = matchMaterials(materialProperties, state);
+    refuseLostStress(materialProperties, out.scene.materials, state);
     if (folder.hasFile("constant/g"))
         out.scene.gravity = readGravity(open("constant/g"), state.particles.dim);
+    if (folder.hasFile("constant/bodyForce"))
+        if (const auto force = readBodyForce(open("constant/bodyForce"), state.particles.dim))
+        {
+            if (const auto* component = force->usesReference())
+                provideReference(state, {component->where(), "value: \"" + component->text() + "\" uses X, Y or Z"});
+            out.scene.bodyForce = force;
+        }
     if (folder.hasFile("constant/boundaryConditions"))
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
     out.shape = readSchemes(open("system/mpmSchemes"), out.scene);

@@ -2,7 +2,8 @@
 /// From the dictionaries of a case to the scene a stepper works on.
 ///
 /// constant/materialProperties: one dictionary a material: law, its parameters, density (see constitutive/);
-///     initialStress and initialVelocity are seedParticles' own.
+///     initialStress, initialVelocity and constants are seedParticles' own.
+/// constant/bodyForce: a force per mass by formulas (case/expressionForce.hpp); absent: none.
 /// constant/g: value (0 -9.8 0); absent: no gravity.
 /// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a
 /// plane

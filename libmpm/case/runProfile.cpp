@@ -21,12 +21,12 @@ void RunProfile::beginSteps(const stepping::PassTimes& passes)
 {
     start_ = elapsed() - timeStep - monitor - history - output -
              sum(passes); // the stability limit may have run passes already
-    processorStart_ = processorNow() - writingProcessor;
+    processorStart_ = processorNow() - apartProcessor;
 }
 
 double RunProfile::processor() const
 {
-    return processorNow() - processorStart_ - writingProcessor;
+    return processorNow() - processorStart_ - apartProcessor;
 }
 
 double RunProfile::elapsed() const

@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"
 #include "case/provenance.hpp"
 #include "case/strainRecorder.hpp"
@@ -21,6 +22,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     runTime_.emplace(control);
     auto record = StrainRecorder::wanted(control);
     monitor_.emplace(control, runTime_->adjustable(), !record.empty());
+    const auto fields = readFields(control);
     control.rejectUnread();
     const TimeFolder start = startFolder();
     lastStored_ = start.name;
@@ -29,6 +31,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     if (state_.particles.size() == 0)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
     scene_ = readScene(folder, state_);
+    if (fields)
+        provideReference(state_, *fields);
     scene_.dictionaries += "// system/controlDict\n" + control.text();
     stepper_ = makeStepper(scene_.shape, state_, scene_.scene);
     stepping::beginLedger(state_, scene_.scene.materials);
@@ -258,7 +262,7 @@ catch (const InputError& error)
 void SolverRun::writeRow()
 {
     const Clock clock(profile_.history);
-    const ProcessorClock processor(profile_.writingProcessor);
+    const ProcessorClock processor(profile_.apartProcessor);
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
@@ -267,7 +271,7 @@ void SolverRun::writeRow()
 void SolverRun::writeState(bool outOfTurn)
 {
     const Clock clock(profile_.output);
-    const ProcessorClock processor(profile_.writingProcessor);
+    const ProcessorClock processor(profile_.apartProcessor);
     finishWriting();
     writingName_ = written_->next(state_, outOfTurn);
     writtenStep_ = state_.step;

@@ -1,6 +1,9 @@
 #pragma once
 /// A run of the solver in a case folder: what mpmSolve does between its banner and its summary.
 ///
+/// `fields (referencePosition);` of system/controlDict: states hold /particles/referencePosition, where each particle
+/// started; so they do where a formula uses X, Y or Z (case/expressionForce.hpp).
+///
 /// Nothing is written before everything was read and checked. A state is written whole or not at all; when a step
 /// fails, the last stored time is named and untouched.
 #include "base/terminal.hpp"

@@ -2,6 +2,7 @@
 #include "base/clock.hpp"
 #include "base/memory.hpp"
 #include "base/version.hpp"
+#include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
 #include "case/solverRun.hpp"
 
@@ -74,6 +75,8 @@ void SolverRun::banner() const
                                      material.law->describe(), material.density, material.waveSpeed()));
     if (s.gravity)
         line("gravity", fmt::format("({:g} {:g} {:g}) m/s^2", (*s.gravity)[0], (*s.gravity)[1], (*s.gravity)[2]));
+    if (const auto* force = dynamic_cast<const ExpressionForce*>(s.bodyForce.get()))
+        line("bodyForce", force->describe() + " m/s^2");
     if (s.relaxationTime)
         line("damping", fmt::format("viscous, relaxation time {:g} s", *s.relaxationTime));
     for (const auto& wall : s.walls)
@@ -135,10 +138,12 @@ void SolverRun::summary()
 {
     {
         const Clock clock(profile_.output);
-        const ProcessorClock processor(profile_.writingProcessor);
+        const ProcessorClock processor(profile_.apartProcessor);
         finishWriting();
     }
     progress_->finish();
+    if (const auto* force = dynamic_cast<const ExpressionForce*>(scene_.scene.bodyForce.get()))
+        profile_.apartProcessor += force->seconds();
     const auto t = stepping::totals(state_, scene_.scene.materials);
     const auto& l = state_.ledger;
     const double supplied = std::abs(l.gravityWork + l.tractionWork + l.bodyForceWork);

@@ -171,7 +171,7 @@ Constants readConstants(const Dictionary& d, const std::vector<std::string>& var
     return constants;
 }
 
-Expression::Expression() = default;
+Expression::Expression(double value) : Expression({fmt::format("{}", value), {}}, "value", {}, {}) {}
 Expression::~Expression() = default;
 Expression::Expression(const Expression&) = default;
 Expression::Expression(Expression&&) noexcept = default;
@@ -218,24 +218,22 @@ Expression::Expression(const FormulaText& given, const std::string& word, const 
 
 std::optional<double> Expression::number() const
 {
-    return formula_ ? formula_->number : 0;
+    return formula_->number;
 }
 
 bool Expression::uses(const std::string& variable) const
 {
-    return formula_ && std::find(formula_->used.begin(), formula_->used.end(), variable) != formula_->used.end();
+    return std::find(formula_->used.begin(), formula_->used.end(), variable) != formula_->used.end();
 }
 
 const std::string& Expression::text() const
 {
-    static const std::string zero = "0";
-    return formula_ ? formula_->text : zero;
+    return formula_->text;
 }
 
 const Location& Expression::where() const
 {
-    static const Location nowhere;
-    return formula_ ? formula_->where : nowhere;
+    return formula_->where;
 }
 
 Index Expression::evaluate(const std::vector<const double*>& variables, Index count, double* out) const

@@ -25,8 +25,8 @@ Constants readConstants(const Dictionary& d, const std::vector<std::string>& var
 class Expression
 {
   public:
-    /// Zero everywhere.
-    Expression();
+    /// A number.
+    Expression(double value = 0);
     /// `word` is the entry it was found at, for messages.
     Expression(const FormulaText& formula, const std::string& word, const std::vector<std::string>& variables,
                const Constants& constants);
@@ -50,7 +50,7 @@ class Expression
 
   private:
     struct Formula;
-    std::shared_ptr<const Formula> formula_; ///< null: zero
+    std::shared_ptr<const Formula> formula_;
 };
 
 /// The components of a vector.

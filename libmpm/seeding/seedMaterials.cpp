@@ -10,6 +10,8 @@ std::vector<SeedMaterial> readMaterials(const dictionary::Dictionary& materialPr
 {
     using dictionary::Bound;
     namespace unit = dictionary::unit;
+    const std::vector<std::string> place =
+        dim == 2 ? std::vector<std::string>{"X", "Y"} : std::vector<std::string>{"X", "Y", "Z"};
     std::vector<SeedMaterial> materials;
     for (const std::string& name : materialProperties.dictNames())
     {
@@ -21,9 +23,8 @@ std::vector<SeedMaterial> readMaterials(const dictionary::Dictionary& materialPr
         material.description = law->describe();
         material.density = dict.get<double>({"density", "mass per initial volume", unit::density, Bound::positive()});
         material.velocity =
-            dict.get<Vector3>({"initialVelocity", "velocity at the start", unit::velocity, {}, Vector3{}});
-        if (dim == 2 && material.velocity[2] != 0)
-            dict.fail("initialVelocity", fmt::format("z component {:.6g}", material.velocity[2]), "0 in 2D");
+            dictionary::readVectorExpression(dict, "initialVelocity", "velocity at the start", unit::velocity, dim,
+                                             place, dictionary::readConstants(dict, place), false);
         material.initialStress = readInitialStress(dict, law->poissonRatio(), g, dim, law->hyperelastic());
         materials.push_back(std::move(material));
     }

@@ -5,9 +5,12 @@
 ///     {
 ///         law mohrCoulomb; ...            // and its parameters, see constitutive/
 ///         density 1000;                   // [kg/m^3]
-///         initialVelocity (0 0 0);        // [m/s], default; z must be 0 in 2D
+///         initialVelocity (0 0 0);        // [m/s], default; z must be 0 or absent in 2D. Or formulas of the seed's
+///                                         // place X Y Z: ("v0*sin(pi*X/25)" 0 0); see dictionary/expression.hpp
+///         constants { v0 0.1; }           // names for numbers in them
 ///         initialStress { type K0; }      // see initialStress.hpp; default none
 ///     }
+#include "dictionary/expression.hpp"
 #include "seeding/initialStress.hpp"
 
 #include <string>
@@ -19,7 +22,7 @@ struct SeedMaterial
 {
     std::string name;
     double density = 0; ///< [kg/m^3]
-    Vector3 velocity{}; ///< [m/s]
+    dictionary::VectorExpression velocity; ///< of X, Y (and Z in 3D) [m/s]
     InitialStress initialStress;
     std::string description; ///< of the law, for the banner
     Location where;          ///< of the dictionary

@@ -93,6 +93,18 @@ void requireMemory(const geometry::BodyGeometry& body, const state::GridBox& gri
                                      options.lattice.perCell, grid.h, particles));
 }
 
+double velocityAt(const Seed& seed, const SeedMaterial& material, std::size_t axis, int dim)
+{
+    const auto& formula = material.velocity[axis];
+    const double v = formula.evaluate(std::vector<double>(seed.centre.begin(), seed.centre.begin() + dim));
+    if (!std::isfinite(v))
+        throw InputError(formula.where(), fmt::format("{}: initialVelocity: found {} at {} from \"{}\", allowed is a "
+                                                      "finite velocity at every particle",
+                                                      material.name, v, geometry::placeText(seed.centre, dim),
+                                                      formula.text()));
+    return v;
+}
+
 void appendParticles(state::State& s, const geometry::Region& region, const std::vector<Seed>& seeds,
                      const SeedMaterial& material, int materialIndex, SeededRegion& report)
 {
@@ -117,7 +129,7 @@ void appendParticles(state::State& s, const geometry::Region& region, const std:
         for (std::size_t k = 0; k < std::size_t(p.dim); ++k)
         {
             p.x[k][at] = seed.centre[k];
-            p.v[k][at] = material.velocity[k];
+            p.v[k][at] = state::Stored(velocityAt(seed, material, k, p.dim));
             p.length0[k][at] = seed.length[k];
         }
         for (std::size_t k = 0; k < std::size_t(stressComponents(p.dim)); ++k)

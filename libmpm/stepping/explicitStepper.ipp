@@ -219,6 +219,9 @@ void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::book(const Pass& pass)
 {
+    if (scene_.bodyForce)
+        if (const auto fault = scene_.bodyForce->takeFault(); !fault.empty())
+            throw StepError(fmt::format("step {} at time {:.9g} s: {}", state_.step, state_.time, fault));
     TileSums total;
     for (const auto& s : tileSums_)
     {

@@ -46,6 +46,9 @@ class BodyForce
     /// b[axis][lane] [m/s^2] of the `count` particles from `first` on.
     virtual void acceleration(const state::Particles& particles, Index first, int count, double time,
                               double (&b)[3][lanes]) const = 0;
+    /// What has gone wrong since this was asked last, or nothing. acceleration() is called by many threads, so it throws
+    /// nothing; who called it asks afterwards and throws a StepError.
+    virtual std::string takeFault() const { return {}; }
 };
 
 /// What a scene is made of besides its state. Effects that are not named are absent: empty or null.

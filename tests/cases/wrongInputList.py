@@ -93,6 +93,11 @@ def compressed(name):
     return state(action)
 
 
+def law(name, words):
+    """The column's material with another law."""
+    return write("constant/materialProperties", f"soil\n{{\n    law {name}; density 1000; E 20e6; nu 0.42;\n    {words}\n}}\n")
+
+
 def seed(what, change):
     return Entry(what, "seedParticles", change, seeded=False)
 
@@ -110,6 +115,8 @@ SPLIT, CHECK = "system/splitParticlesDict", "system/checkIntegrationDict"
 MATERIAL, WALLS, GRAVITY = "constant/materialProperties", "constant/boundaryConditions", "constant/g"
 COLUMN, COST = "geometry/column.geo", "system/accuracyCostDict"
 MEASURE = " measures { runOut { history maxX; against finest; } }"
+FORCE = "constant/bodyForce"
+COLUMN = "geometry/column.geo"
 SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n")
 
@@ -181,6 +188,14 @@ GROUPS = [
         seed("a negative density", edit(MATERIAL, "1000;", "-1000;")),
         seed("a law misspelt", edit(MATERIAL, "mohrCoulomb;", "mohrColomb;")),
         seed("a law that does not exist", edit(MATERIAL, "mohrCoulomb;", "vonKarman;")),
+        seed("a yield stress of nothing", law("vonMises", "yieldStress 0;")),
+        seed("a word of another law", law("neoHookean", "cohesion 1e3;")),
+        seed("a stress at the start in a law that follows the deformation", law("hencky", "initialStress { type K0; }")),
+        seed("a velocity of an unknown name", law("neoHookean", 'initialVelocity ("v0*sin(X)" 0);')),
+        seed("a velocity of a place that is not yet known", law("neoHookean", 'initialVelocity ("x" 0);')),
+        seed("a velocity out of the plane", law("neoHookean", "initialVelocity (0 0 1);")),
+        seed("a velocity that is infinite at a particle", law("neoHookean", 'initialVelocity ("1/(X - 2.066666666666667 > 0)" 0);')),
+        seed("a velocity of four components", law("neoHookean", "initialVelocity (0 0 0 0);")),
         seed("a friction angle of a right angle", edit(MATERIAL, "frictionAngle   42;", "frictionAngle   90;")),
         seed("dilation beyond friction", edit(MATERIAL, "dilationAngle   0;", "dilationAngle   50;")),
         seed("an initial stress that does not exist", edit(MATERIAL, "        type        K0;", "        type        K1;")),
@@ -237,6 +252,16 @@ GROUPS = [
         solve("a stress update misspelt", edit(SCHEMES, "MUSL;           //", "MULS;           //")),
         solve("a negative rate", edit(SCHEMES, "picRate         2;", "picRate         -2;")),
         solve("splitting at once", edit(SCHEMES, "threshold   2.5;", "threshold   0.5;")),
+        solve("a body force of an unknown name", write(FORCE, 'value ("A*sin(pi*X)" 0 0);\n')),
+        solve("a body force with a function misspelt", write(FORCE, 'value (0 "sine(x)");\n')),
+        solve("a body force cut short", write(FORCE, 'value ("2*(x" 0 0);\n')),
+        solve("a body force that assigns", write(FORCE, 'value ("t = 0" 0 0);\n')),
+        solve("a body force of two values in one", write(FORCE, 'value ("x, y" 0 0);\n')),
+        solve("a body force out of the plane", write(FORCE, 'value (0 0 "x");\n')),
+        solve("a body force without its value", write(FORCE, "constants { A 1; }\n")),
+        solve("a constant that is a variable", write(FORCE, 'value ("t" 0); constants { t 1; }\n')),
+        solve("a constant that is no number", write(FORCE, 'value ("A" 0); constants { A one; }\n')),
+        solve("a field that does not exist", append(CONTROL, "fields (referencePositon);\n")),
         solve("a time step beyond the stability limit", edit(CONTROL, "1e-3;", "4e-3;")),
         solve("stress last at this time step", edit(SCHEMES, "MUSL;           //", "USL;           //")),
         solve("a time step of zero", edit(CONTROL, "1e-3;", "0;")),
@@ -307,6 +332,9 @@ GROUPS = [
         solve("another dimension", both(edit(GRID, "dimension       2;", "dimension       3;"),
                                       edit(GRID, "(16 12 0)", "(16 12 4)"))),
         solve("a material the state is made of and nobody describes", edit(MATERIAL, "\nsoil\n", "\nclay\n")),
+        solve("a law that follows the deformation, and stress without one", law("neoHookean", "")),
+        solve("a place at the start that is not known any more", both(write(FORCE, 'value (0 "X*t");\n'),
+                                                                     attribute("step", 5))),
         solve("a grid the particles have left", edit(GRID, "(-12 0 0)", "(2.4 0 0)")),
         solve("a wall that is not on a node's line", edit(WALLS, "position    0;", "position    0.1;")),
         solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),

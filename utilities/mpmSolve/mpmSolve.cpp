@@ -10,9 +10,11 @@ int main(int argc, char** argv)
     info.options = {{"profile", "", "write postProcessing/profile.csv: where the time went, pass by pass"}};
     info.usesDryRun = info.usesOverwrite = info.usesThreads = true;
     info.details =
-        "Reads constant/{materialProperties,boundaryConditions,g}, system/{controlDict,gridDict,mpmSchemes} and "
+        "Reads constant/{materialProperties,boundaryConditions,g,bodyForce}, system/{controlDict,gridDict,mpmSchemes} and "
         "the state of the start time (seedParticles makes the first).\n"
         "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
+        "constant/bodyForce { value (\"A*sin(pi*X)*cos(t)\" 0 0); constants { A 0.05; } }: variables x y z X Y Z t; where\n"
+        "X Y Z are named, and with fields (referencePosition); in controlDict, states hold where particles started.\n"
         "-dry-run reads and checks everything, says what would be done and writes nothing.\n"
         "-overwrite with startFrom firstTime or startTime removes stored times after the start.\n"
         "Ctrl-C (SIGINT), SIGTERM and SIGHUP: the step is finished and its state written, so that startFrom "
