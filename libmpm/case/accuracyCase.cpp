@@ -99,6 +99,9 @@ AccuracyCase::AccuracyCase(const CaseDirectory& folder, bool storedTimes)
     endTime_ = time.endTime();
     if (!(endTime_ > 0))
         control.fail("endTime", fmt::format("{:g} s", endTime_), "> 0: rows run from time 0");
+    interval_ = endTime_;
+    if (storedTimes && wordOr(control, "writeControl", "runTime") != "timeStep")
+        interval_ = std::min(endTime_, control.get<double>({"writeInterval", ""}));
     const auto materials = Dictionary::readFile(folder.dictionaryPath("constant/materialProperties"));
     waveSpeed_ = fastestWave(materials);
     const auto gridDict = Dictionary::readFile(folder.dictionaryPath(gridFile));
@@ -157,8 +160,9 @@ RowFacts AccuracyCase::facts(const MatrixRow& row) const
         out.deltaT = std::stod(row.setting.at("deltaT"));
     else
         out.deltaT = out.courant * out.cellSize / waveSpeed_;
-    out.steps = Index(std::ceil(endTime_ / out.deltaT - 1e-9));
-    out.deltaT = endTime_ / double(out.steps);
+    const auto steps = Index(std::ceil(interval_ / out.deltaT - 1e-9)); // between the times that are compared
+    out.deltaT = interval_ / double(steps);
+    out.steps = Index(std::llround(endTime_ / out.deltaT));
     if (!adjustable_ || given("deltaT"))
         out.courant = waveSpeed_ * out.deltaT / out.cellSize;
     out.declared = out.effective;

@@ -1,6 +1,9 @@
 #pragma once
 /// The case accuracyCost is run in, and the copies of it that its rows are.
 ///
+/// Steps are shortened so that endTime, or each writeInterval where all stored times are compared, is a whole number of
+/// them: runs of different steps are seen at the same times.
+///
 /// A row's case lies in <case>/accuracyCost/<row>/: constant, geometry and the dictionaries of system, in which only the
 /// values of the row's settings are changed (accuracyText.hpp). Besides, in controlDict: startFrom startTime 0, deltaT,
 /// one state at endTime unless all stored times are wanted, purgeWrite 0, and no recordStrain. Words of mpmSchemes that
@@ -48,7 +51,7 @@ class AccuracyCase
     bool storedTimes_;
     bool adjustable_ = false;
     int dim_ = 2;
-    double waveSpeed_ = 0, endTime_ = 0, courant_ = 0;
+    double waveSpeed_ = 0, endTime_ = 0, interval_ = 0, courant_ = 0;
     Setting own_;          ///< the case's own values
     std::string baseText_; ///< all that keys are made of but the row's settings
 };

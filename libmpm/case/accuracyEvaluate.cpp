@@ -1,5 +1,6 @@
 // Errors of the rows, measure by measure: against what, how certain that is, and the parts of space and time.
 #include "case/accuracyAnalysis.hpp"
+#include "case/accuracySample.hpp"
 #include "case/accuracyTable.hpp"
 
 #include <algorithm>
@@ -183,6 +184,20 @@ class Judge
                 compare(line, *best, sampleSize(m_, *samples_[*best]));
     }
 
+    /// Of two runs of one grid, at the end or the largest of all stored times.
+    double difference(std::size_t a, std::size_t b) const
+    {
+        if (!m_.storedTimes)
+            return sampleDistance(m_, *samples_[a], *samples_[b]);
+        const CaseDirectory first(base_.rowFolder(all_.rows[a])), second(base_.rowFolder(all_.rows[b]));
+        const auto times = first.times(), others = second.times();
+        double largest = 0;
+        for (std::size_t i = 0; i < std::min(times.size(), others.size()); ++i)
+            largest = std::max(largest, sampleDistance(m_, fieldSample(m_, first, times[i].name),
+                                                       fieldSample(m_, second, others[i].name)));
+        return largest;
+    }
+
     void split()
     {
         if (m_.against == "finestTimeStep")
@@ -197,7 +212,7 @@ class Judge
             if (!best || !std::isfinite(line.scale))
                 continue;
             if (*best != line.row)
-                line.temporal = sampleDistance(m_, *samples_[line.row], *samples_[*best]) / line.scale;
+                line.temporal = difference(line.row, *best) / line.scale;
             for (const CostLine& other : lines_)
                 if (other.row == *best)
                     line.spatial = other.error;
