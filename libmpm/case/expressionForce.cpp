@@ -1,6 +1,6 @@
 #include "case/expressionForce.hpp"
 
-#include "base/clock.hpp"
+#include "base/processorClock.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>

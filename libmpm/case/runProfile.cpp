@@ -1,6 +1,6 @@
 #include "case/runProfile.hpp"
 
-#include "base/clock.hpp"
+#include "base/processorClock.hpp"
 #include "base/terminal.hpp"
 #include "output/csvSeries.hpp"
 #include "output/replaceFile.hpp"

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/processorClock.hpp"
 #include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"

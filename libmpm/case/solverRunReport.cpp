@@ -1,6 +1,7 @@
 // What a run of the solver says before its first step and after its last.
 #include "base/clock.hpp"
 #include "base/memory.hpp"
+#include "base/processorClock.hpp"
 #include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
