@@ -30,6 +30,12 @@ bool limitIgnoresMass(const std::string& shape)
 std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
                                                const stepping::Scene& scene)
 {
+    using stepping::TimeIntegration;
+    if (scene.timeIntegration != TimeIntegration::symplecticEuler)
+        return makeRungeKutta(shape,
+                              scene.timeIntegration == TimeIntegration::RK4 ? stepping::RungeKuttaOrder::RK4
+                                                                            : stepping::RungeKuttaOrder::RK2,
+                              state, scene);
     const bool flat = state.particles.dim == 2;
     if (shape == "linear")
         return flat ? stepping::makeExplicitStepper<2, shape::Linear>(state, scene)

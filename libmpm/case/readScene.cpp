@@ -343,7 +343,12 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
         }
     if (folder.hasFile("constant/boundaryConditions"))
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
-    out.shape = readSchemes(open("system/mpmSchemes"), out.scene);
+    const Dictionary& schemes = open("system/mpmSchemes");
+    out.shape = readSchemes(schemes, out.scene);
+    if (out.scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
+        if (const auto why = whyNotSmooth(out.shape, out.scene); !why.empty())
+            schemes.fail("timeIntegration", schemes.get<std::string>({"timeIntegration", "time integration"}),
+                         "symplecticEuler here: " + why);
     for (const auto& [name, dictionary] : read)
     {
         dictionary.rejectUnread();

@@ -75,9 +75,20 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
     scene.stressUpdate = update == "USF"   ? stepping::StressUpdate::USF
                          : update == "USL" ? stepping::StressUpdate::USL
                                            : stepping::StressUpdate::MUSL;
+    const auto integration = d.choose("timeIntegration", "how the motion goes from one time to the next",
+                                      {{"symplecticEuler", "one kick and one move a step"},
+                                       {"RK2", "two stages of the semi-discrete equations"},
+                                       {"RK4", "four stages"}},
+                                      "symplecticEuler");
+    scene.timeIntegration = integration == "RK2"   ? stepping::TimeIntegration::RK2
+                            : integration == "RK4" ? stepping::TimeIntegration::RK4
+                                                   : stepping::TimeIntegration::symplecticEuler;
     readTransfer(d, scene);
     scene.staggeredStart =
         d.get<bool>({"staggeredStart", "on: the first kick is half a step", unit::none, {}, false});
+    if (scene.staggeredStart && scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
+        d.fail("staggeredStart", "on with timeIntegration " + integration,
+               "off: " + integration + " has positions and velocities at the same times");
     if (scene.staggeredStart && scene.stressUpdate == stepping::StressUpdate::USF)
         d.fail("staggeredStart", "on with stressUpdate USF",
                "USL or MUSL, or off: USF strains before its first kick, so that its stresses, not its velocities, would "

@@ -52,6 +52,15 @@ std::pair<Index, double> longParticles(const state::State& state)
     return {count, longest};
 }
 
+std::vector<std::string> periodicAxes(const state::GridBox& grid)
+{
+    std::vector<std::string> axes;
+    for (int a = 0; a < grid.dim; ++a)
+        if (grid.periodic[std::size_t(a)])
+            axes.push_back(axisNames[std::size_t(a)]);
+    return axes;
+}
+
 void line(const std::string& what, const std::string& text)
 {
     fmt::print("  {:<14} {}\n", what, text);
@@ -69,8 +78,9 @@ void SolverRun::banner() const
                                                          state_.grid.cells[1], state_.grid.h)
                                            : fmt::format("{} x {} x {} cells of {:.6g} m", state_.grid.cells[0],
                                                          state_.grid.cells[1], state_.grid.cells[2], state_.grid.h));
-    line("method", fmt::format("{}, {}, FLIP{}", scene_.shape, stepping::stressUpdateName(s.stressUpdate),
-                               s.picRate > 0 ? fmt::format(" with {:g} 1/s of PIC", s.picRate) : ""));
+    if (const auto periodic = periodicAxes(state_.grid); !periodic.empty())
+        line("periodic", "along " + joinWords(periodic, " and "));
+    line("method", scene_.shape + ", " + stepping::methodText(s));
     for (const auto& material : s.materials)
         line("material", fmt::format("{}: {}, density {:g} kg/m^3, c_p {:.1f} m/s", material.name,
                                      material.law->describe(), material.density, material.waveSpeed()));
@@ -98,8 +108,7 @@ void SolverRun::banner() const
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
     line("stability",
          fmt::format("deltaT <= {:.4g} s for {} with {}; now {:.3f} of it, (c_p + |v|) deltaT/h = {:.3f}",
-                     limit_.deltaT, stepping::stressUpdateName(s.stressUpdate), scene_.shape,
-                     stepSize() / limit_.deltaT, (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
+                     limit_.deltaT, stepping::methodText(s), scene_.shape, stepSize() / limit_.deltaT, (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
     line("monitor", monitor_->describe());
     line("threads", fmt::format("{}", options_.threadCount()));
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})

@@ -18,6 +18,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace mpm::stepping
 {
@@ -36,6 +37,14 @@ enum class Transfer
     FMPM, ///< v_p = sum N v*^(k): the same filter as an approximate inverse of the full mass matrix
     APIC, ///< v_p = sum N v* and an affine field around the particle (transfer/affine.hpp)
     TPIC  ///< the same with the velocity gradient
+};
+
+/// How the motion goes from one time to the next.
+enum class TimeIntegration
+{
+    symplecticEuler, ///< the step above
+    RK2,             ///< stages of the semi-discrete equations (rungeKutta.hpp)
+    RK4
 };
 
 /// A prescribed body force per unit mass that varies in space and time (manufactured solutions).
@@ -62,6 +71,7 @@ struct Scene
     std::optional<splitting::Rule> splitting;
     std::shared_ptr<const BodyForce> bodyForce;
     StressUpdate stressUpdate = StressUpdate::MUSL;
+    TimeIntegration timeIntegration = TimeIntegration::symplecticEuler;
     Transfer transfer = Transfer::FLIP;
     int transferOrder = 2;       ///< k of XPIC and FMPM; 1 is PIC
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
@@ -122,6 +132,9 @@ class Stepper
     /// max |v_p| of the particles as they are [m/s].
     virtual double largestSpeed() const = 0;
 };
+
+/// "MUSL, FLIP", "USL, XPIC of order 2, staggered start", "RK4".
+std::string methodText(const Scene& scene);
 
 /// The instantiated pairs; case/makeStepper.cpp chooses among them by name.
 template <int dim, class Shape>

@@ -1,5 +1,7 @@
 #include "stepping/timeStep.hpp"
 
+#include "stepping/rungeKutta.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,14 +31,21 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 bool limitFollowsMass(const Scene& scene, bool ignoresMass)
 {
-    return scene.stressUpdate == StressUpdate::USL && !ignoresMass;
+    return scene.stressUpdate == StressUpdate::USL && !ignoresMass &&
+           scene.timeIntegration == TimeIntegration::symplecticEuler;
 }
 
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool ignoresMass)
 {
     StabilityLimit limit;
-    limit.courant = criticalCourant(state.particles.dim, ignoresMass, scene.stressUpdate,
+    const int dim = state.particles.dim;
+    limit.courant = criticalCourant(dim, ignoresMass, scene.stressUpdate,
                                     limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
+    if (scene.transfer == Transfer::FMPM)
+        limit.courant /= std::sqrt(double(scene.transferOrder));
+    if (scene.timeIntegration != TimeIntegration::symplecticEuler)
+        limit.courant = rungeKuttaCourant(
+            scene.timeIntegration == TimeIntegration::RK4 ? RungeKuttaOrder::RK4 : RungeKuttaOrder::RK2, dim);
     limit.hats = !ignoresMass;
     return movedLimit(limit, fastestWave(state, scene.materials), state, stepper.largestSpeed());
 }
