@@ -179,8 +179,8 @@ RowFacts AccuracyCase::facts(const MatrixRow& row) const
     {
         const auto box = gridFromDict(grid);
         out.cells = box.cells[0] * box.cells[1] * box.cells[2];
-        out.work = double(out.cells) * std::pow(std::stod(out.effective.at("particlesPerCell")), dim_) *
-                   double(out.steps);
+        out.work =
+            double(out.cells) * std::pow(std::stod(out.effective.at("particlesPerCell")), dim_) * double(out.steps);
     }
     catch (const InputError& error)
     {

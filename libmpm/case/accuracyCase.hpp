@@ -4,10 +4,10 @@
 /// Steps are shortened so that endTime, or each writeInterval where all stored times are compared, is a whole number of
 /// them: runs of different steps are seen at the same times.
 ///
-/// A row's case lies in <case>/accuracyCost/<row>/: constant, geometry and the dictionaries of system, in which only the
-/// values of the row's settings are changed (accuracyText.hpp). Besides, in controlDict: startFrom startTime 0, deltaT,
-/// one state at endTime unless all stored times are wanted, purgeWrite 0, and no recordStrain. Words of mpmSchemes that
-/// only another transfer has (picRate, order) are left out.
+/// A row's case lies in <case>/accuracyCost/<row>/: constant, geometry and the dictionaries of system, in which only
+/// the values of the row's settings are changed (accuracyText.hpp). Besides, in controlDict: startFrom startTime 0,
+/// deltaT, one state at endTime unless all stored times are wanted, purgeWrite 0, and no recordStrain. Words of
+/// mpmSchemes that only another transfer has (picRate, order) are left out.
 #include "case/accuracyMatrix.hpp"
 #include "case/caseDirectory.hpp"
 
@@ -16,12 +16,12 @@ namespace mpm::cases
 /// What a row comes to once the case's own values are filled in.
 struct RowFacts
 {
-    Setting effective;  ///< every axis that applies, courant and deltaT as they come out
-    Setting declared;   ///< the same, the time step as it was asked for: what tells rows of one family
+    Setting effective; ///< every axis that applies, courant and deltaT as they come out
+    Setting declared;  ///< the same, the time step as it was asked for: what tells rows of one family
     double cellSize = 0, courant = 0, deltaT = 0, endTime = 0;
-    Index steps = 0;    ///< expected; 0 with adjustTimeStep
-    Index cells = 0;    ///< of the grid's box
-    double work = 0;    ///< particles in a full box times steps: a first guess at what the row costs
+    Index steps = 0;     ///< expected; 0 with adjustTimeStep
+    Index cells = 0;     ///< of the grid's box
+    double work = 0;     ///< particles in a full box times steps: a first guess at what the row costs
     std::string refused; ///< why it cannot be run; empty if nothing speaks against it
 };
 

@@ -21,8 +21,7 @@ class Judge
           std::optional<std::size_t> reference)
         : all_(all), base_(base), exact_(exact), measure_(measure), m_(all.measures[measure]), decided_(reference),
           samples_(all.rows.size())
-    {
-    }
+    {}
 
     void judge()
     {
@@ -141,9 +140,9 @@ class Judge
             return std::nullopt;
         const auto h = [&](std::size_t i) { return all_.facts[i].cellSize; };
         const auto d = [&](std::size_t i) { return sampleDistance(m_, *samples_[i], *samples_[reference]); };
-        const auto estimate = family.size() > 1 ? richardson(h(reference), h(family[0]), d(family[0]), h(family[1]),
-                                                             d(family[1]))
-                                                : richardson(h(reference), h(family[0]), d(family[0]));
+        const auto estimate = family.size() > 1
+                                  ? richardson(h(reference), h(family[0]), d(family[0]), h(family[1]), d(family[1]))
+                                  : richardson(h(reference), h(family[0]), d(family[0]));
         return estimate ? std::optional(estimate->error) : std::nullopt;
     }
 

@@ -17,8 +17,10 @@ ExactSolution::ExactSolution(const Dictionary& exact, int dim)
 {
     namespace unit = dictionary::unit;
     const auto constants = dictionary::readConstants(exact, variables);
-    for (const auto& [field, dimensions] : {std::pair{"position", unit::length}, {"displacement", unit::length},
-                                            {"velocity", unit::velocity}, {"stress", unit::pressure}})
+    for (const auto& [field, dimensions] : {std::pair{"position", unit::length},
+                                            {"displacement", unit::length},
+                                            {"velocity", unit::velocity},
+                                            {"stress", unit::pressure}})
     {
         if (!exact.found(field))
             continue;

@@ -9,7 +9,8 @@
 ///         stress          (0 "-80*10*(50 - Y)" 0 0);              // [Pa] xx yy zz xy, in 3D also yz zx
 ///     }
 ///
-/// Numbers, or formulas in double quotes (dictionary/expression.hpp). X Y Z are material positions (those of the first state), t the time. Position and displacement give each other.
+/// Numbers, or formulas in double quotes (dictionary/expression.hpp). X Y Z are material positions (those of the first
+/// state), t the time. Position and displacement give each other.
 #include "base/types.hpp"
 #include "dictionary/expression.hpp"
 

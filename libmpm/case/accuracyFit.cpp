@@ -34,7 +34,8 @@ class Neighbours
         for (long k = -deep; k <= deep; ++k)
             for (long j = -radius; j <= radius; ++j)
                 for (long i = -radius; i <= radius; ++i)
-                    if (const auto box = boxes_.find({middle[0] + i, middle[1] + j, middle[2] + k}); box != boxes_.end())
+                    if (const auto box = boxes_.find({middle[0] + i, middle[1] + j, middle[2] + k});
+                        box != boxes_.end())
                         out.insert(out.end(), box->second.begin(), box->second.end());
         return out;
     }
@@ -77,8 +78,8 @@ class LinearFit
         }
     }
 
-    /// The function's value at the middle, for each component. Where particles stand on a line, or there are too few, the
-    /// slope nobody knows is zero: that is what the small number on the diagonal does.
+    /// The function's value at the middle, for each component. Where particles stand on a line, or there are too few,
+    /// the slope nobody knows is zero: that is what the small number on the diagonal does.
     std::vector<double> value()
     {
         constexpr double small = 1e-12;

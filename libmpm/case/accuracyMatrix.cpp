@@ -66,8 +66,7 @@ const Axis* findAxis(const std::string& word)
 
 Words readWords(const Dictionary& d, const Axis& axis, bool single)
 {
-    Words values = single ? Words{d.get<std::string>({axis.word, axis.help})}
-                          : d.get<Words>({axis.word, axis.help});
+    Words values = single ? Words{d.get<std::string>({axis.word, axis.help})} : d.get<Words>({axis.word, axis.help});
     for (const auto& value : values)
         if (std::find(axis.words.begin(), axis.words.end(), value) == axis.words.end())
         {
@@ -80,9 +79,9 @@ Words readWords(const Dictionary& d, const Axis& axis, bool single)
 
 Words readNumbers(const Dictionary& d, const Axis& axis, bool single)
 {
-    const auto numbers =
-        single ? std::vector<double>{d.get<double>({axis.word, axis.help, axis.dimensions, axis.bound})}
-               : d.get<std::vector<double>>({axis.word, axis.help, axis.dimensions, axis.bound});
+    const auto numbers = single
+                             ? std::vector<double>{d.get<double>({axis.word, axis.help, axis.dimensions, axis.bound})}
+                             : d.get<std::vector<double>>({axis.word, axis.help, axis.dimensions, axis.bound});
     Words values;
     for (const double number : numbers)
     {

@@ -22,7 +22,8 @@
 ///         convected   { shape cpGIMP; cellSize (0.4 0.2 0.1); }   // a method's own values go before those of axes
 ///     }
 ///
-/// Where neither courant nor deltaT is given, the Courant number is that of the case. With `adjustTimeStep yes` courant sets maxCo.
+/// Where neither courant nor deltaT is given, the Courant number is that of the case. With `adjustTimeStep yes` courant
+/// sets maxCo.
 ///
 /// Errors: an unknown axis or word, a value out of bounds, a value given twice, courant beside deltaT, two methods that
 /// come to the same row, more than 10,000 rows.

@@ -116,8 +116,9 @@ std::vector<Measure> readMeasures(const Dictionary& all, const ExactSolution& ex
         m.name = name;
         const int kinds = int(d.found("field")) + int(d.found("history")) + int(d.found("profile"));
         if (kinds != 1)
-            throw InputError(d.where(), fmt::format("{}: found {} of the words field, history and profile, allowed: one",
-                                                    name, kinds));
+            throw InputError(
+                d.where(),
+                fmt::format("{}: found {} of the words field, history and profile, allowed: one", name, kinds));
         if (d.found("field"))
             readField(d, m, dim);
         else if (d.found("history"))

@@ -57,16 +57,16 @@ struct Measure
 {
     std::string name;
     MeasureKind kind = MeasureKind::field;
-    std::string of;               ///< field, or column of history.csv
-    std::vector<int> components;  ///< of a field
-    bool largest = false;         ///< norm max
+    std::string of;              ///< field, or column of history.csv
+    std::vector<int> components; ///< of a field
+    bool largest = false;        ///< norm max
     bool storedTimes = false;
     std::string take = "end";
-    double window = 0;            ///< [s]
+    double window = 0; ///< [s]
     Vector3 low{}, high{};
     Index bins = 0;
     std::string against;
-    double number = 0;            ///< with `against number`
+    double number = 0; ///< with `against number`
     std::optional<double> scale;
     bool scalar() const { return kind == MeasureKind::history; }
 };

@@ -130,8 +130,8 @@ fs::path utilityPath(const std::string& name)
     std::error_code none;
     const auto beside = fs::read_symlink("/proc/self/exe", none).parent_path() / name;
     if (none || !fs::exists(beside, none))
-        throw InputError(fmt::format("found no {} beside this program, allowed: both in one folder, as they are built",
-                                     name));
+        throw InputError(
+            fmt::format("found no {} beside this program, allowed: both in one folder, as they are built", name));
     return beside;
 }
 

@@ -9,7 +9,7 @@ namespace mpm::cases
 {
 struct ProcessResult
 {
-    int exitCode = -1;    ///< 128 + signal where one ended it; 127: it could not be started
+    int exitCode = -1;     ///< 128 + signal where one ended it; 127: it could not be started
     double cpuSeconds = 0; ///< user and system, all threads
     double wallSeconds = 0;
     bool ended(int code) const { return exitCode == code; }

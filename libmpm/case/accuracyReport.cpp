@@ -108,8 +108,8 @@ std::string advice(const Evaluation& e, const Lines& lines, std::optional<double
         if (!best)
             text += fmt::format("  within {:g}: none of the rows; the smallest error is {:.3g}\n", bound, *low);
         else
-            text += fmt::format("  within {:g}: {} costs {} (error {:.3g})\n", bound,
-                                settingText(e, lines[*best]->row), secondsText(prices[*best]), errors[*best]);
+            text += fmt::format("  within {:g}: {} costs {} (error {:.3g})\n", bound, settingText(e, lines[*best]->row),
+                                secondsText(prices[*best]), errors[*best]);
     }
     return text;
 }

@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 
 namespace
 {
-constexpr double shortRun = 1; ///< [s] of processor time, below which a run is timed three times
-const std::vector<std::string> columns = {"key",     "status",        "reason",  "cpuSeconds", "wallSeconds", "repeats",
-                                          "sideBySide", "particles", "steps", "particleSteps", "endTime", "machine"};
+constexpr double shortRun = 1; ///< [s] of processor time, below which a process is timed three times
+const std::vector<std::string> columns = {"key",         "status",        "reason",     "cpuSeconds",
+                                          "wallSeconds", "repeats",       "sideBySide", "particles",
+                                          "steps",       "particleSteps", "endTime",    "machine"};
 
 fs::path resultFile(const fs::path& row)
 {
@@ -129,7 +130,7 @@ RowResult runRow(const AccuracyCase& base, const MatrixRow& row, const std::stri
             result.wallSeconds = process.wallSeconds;
         result.cpuSeconds = std::min(result.cpuSeconds, cpu);
         result.repeats = repeat + 1;
-        if (options.repeats == 0 && repeat == 0 && cpu < shortRun)
+        if (options.repeats == 0 && repeat == 0 && process.cpuSeconds < shortRun)
             wanted = 3;
     }
     complete(result, folder);

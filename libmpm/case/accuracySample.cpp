@@ -88,9 +88,8 @@ Sample historySample(const Measure& m, const CaseDirectory& run)
             value = m.take == "maximum" ? std::max(value, v) : std::min(value, v);
     if (m.take == "mean" || m.take == "rate")
     {
-        const auto first = std::find_if(series.begin(), series.end(), [&](const auto& row) {
-            return row.first >= out.time - m.window * (1 + 1e-9);
-        });
+        const auto first = std::find_if(series.begin(), series.end(),
+                                        [&](const auto& row) { return row.first >= out.time - m.window * (1 + 1e-9); });
         if (series.end() - first < 2)
             throw InputError(fmt::format("{}: found one row of history.csv in the last {:g} s, allowed: at least two "
                                          "(historyInterval of controlDict)",

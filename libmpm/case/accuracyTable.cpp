@@ -20,12 +20,33 @@ std::vector<std::string> columnNames()
     std::vector<std::string> names{"row", "method"};
     for (const auto& axis : accuracyAxes())
         names.push_back(axis);
-    for (const char* name :
-         {"status",        "reason",       "errorMeasure", "error",      "errorScale",    "against",
-          "value",         "reference",    "referenceRow", "referenceError", "temporalError", "spatialError",
-          "pareto",        "cpuSeconds",   "wallSeconds",  "repeats",    "threads",       "sideBySide",
-          "particles",     "steps",        "particleSteps", "cells",     "nsPerParticleStep", "endTime",
-          "machine",       "version",      "key"})
+    for (const char* name : {"status",
+                             "reason",
+                             "errorMeasure",
+                             "error",
+                             "errorScale",
+                             "against",
+                             "value",
+                             "reference",
+                             "referenceRow",
+                             "referenceError",
+                             "temporalError",
+                             "spatialError",
+                             "pareto",
+                             "cpuSeconds",
+                             "wallSeconds",
+                             "repeats",
+                             "threads",
+                             "sideBySide",
+                             "particles",
+                             "steps",
+                             "particleSteps",
+                             "cells",
+                             "nsPerParticleStep",
+                             "endTime",
+                             "machine",
+                             "version",
+                             "key"})
         names.emplace_back(name);
     return names;
 }
@@ -51,15 +72,33 @@ std::vector<std::string> cells(const Evaluation& e, const CostLine& line)
     for (const auto& axis : accuracyAxes())
         out.push_back(settingText(facts, result, axis));
     const double ns = result.particleSteps > 0 ? 1e9 * result.cpuSeconds / result.particleSteps : NAN;
-    for (const auto& text :
-         {result.status, result.reason.empty() ? line.note : result.reason, measure.name, shown(line.error),
-          shown(line.scale), measure.against, shown(line.value), shown(line.reference), line.referenceRow,
-          shown(line.referenceError), shown(line.temporal), shown(line.spatial), std::string(line.pareto ? "1" : "0"),
-          ifDone(result.cpuSeconds), ifDone(result.wallSeconds), ifDone(double(result.repeats)), ifDone(1),
-          ifDone(double(result.sideBySide)), ifDone(double(result.particles)), ifDone(double(result.steps)),
-          ifDone(result.particleSteps), shown(facts.cells > 0 ? double(facts.cells) : NAN), ifDone(ns),
-          ifDone(result.endTime), result.machine,
-          fmt::format("{} {} {}", projectVersion(), gitRevision(), kernelText()), result.key})
+    for (const auto& text : {result.status,
+                             result.reason.empty() ? line.note : result.reason,
+                             measure.name,
+                             shown(line.error),
+                             shown(line.scale),
+                             measure.against,
+                             shown(line.value),
+                             shown(line.reference),
+                             line.referenceRow,
+                             shown(line.referenceError),
+                             shown(line.temporal),
+                             shown(line.spatial),
+                             std::string(line.pareto ? "1" : "0"),
+                             ifDone(result.cpuSeconds),
+                             ifDone(result.wallSeconds),
+                             ifDone(double(result.repeats)),
+                             ifDone(1),
+                             ifDone(double(result.sideBySide)),
+                             ifDone(double(result.particles)),
+                             ifDone(double(result.steps)),
+                             ifDone(result.particleSteps),
+                             shown(facts.cells > 0 ? double(facts.cells) : NAN),
+                             ifDone(ns),
+                             ifDone(result.endTime),
+                             result.machine,
+                             fmt::format("{} {} {}", projectVersion(), gitRevision(), kernelText()),
+                             result.key})
         out.push_back(text);
     return out;
 }

@@ -10,7 +10,8 @@
 ///     error               divided by errorScale; of the reference run itself its estimate, referenceError
 ///     errorScale          in the measure's own unit
 ///     value, reference    of scalars: what came out and what it is compared with
-///     referenceRow, referenceError    the row compared with, and what it is thought to be wrong by (Richardson over its
+///     referenceRow, referenceError    the row compared with, and what it is thought to be wrong by (Richardson over
+///     its
 ///                         cell sizes, in units of `error`); errors below twice that are not resolved
 ///     temporalError       difference to the run of the same grid and method with the smallest step
 ///     spatialError        error of that run

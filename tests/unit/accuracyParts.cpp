@@ -79,7 +79,8 @@ TEST_CASE("an entry or a dictionary is removed with its line")
 
 TEST_CASE("axes are multiplied")
 {
-    const auto rows = matrix("axes { cellSize (0.4 0.2); shape (uGIMP linear); courant (0.1 0.2 0.4); stressUpdate MUSL; }");
+    const auto rows =
+        matrix("axes { cellSize (0.4 0.2); shape (uGIMP linear); courant (0.1 0.2 0.4); stressUpdate MUSL; }");
     REQUIRE(rows.size() == 12);
     std::set<std::string> names;
     for (const auto& row : rows)
@@ -97,8 +98,9 @@ TEST_CASE("axes are multiplied")
 
 TEST_CASE("methods are crossed with axes, their own values go first")
 {
-    const auto rows = matrix("axes { cellSize (0.4 0.2); courant (0.2 0.4); }"
-                             "methods { A { shape linear; deltaT 1e-3; } B { cellSize (0.1); particlesPerCell (2 3); } }");
+    const auto rows =
+        matrix("axes { cellSize (0.4 0.2); courant (0.2 0.4); }"
+               "methods { A { shape linear; deltaT 1e-3; } B { cellSize (0.1); particlesPerCell (2 3); } }");
     REQUIRE(rows.size() == 2 + 4);
     CHECK(rowNamed(rows, "A-cellSize_0.2").setting ==
           Setting{{"cellSize", "0.2"}, {"shape", "linear"}, {"deltaT", "0.001"}});
@@ -163,7 +165,7 @@ TEST_CASE("Richardson's estimate is exact for C h^p")
         CHECK(estimate->order == Approx(p).epsilon(1e-6));
         CHECK(estimate->error == Approx(e(0.1)).epsilon(1e-6));
     }
-    CHECK(richardson(1, 2, 0.5)->error == Approx(0.5)); // first order, if there is no third run
+    CHECK(richardson(1, 2, 0.5)->error == Approx(0.5));         // first order, if there is no third run
     CHECK(richardson(1, 2, 0.5, 4, 0.4)->order == Approx(0.5)); // no convergence: the lowest order, the largest error
     CHECK_FALSE(richardson(2, 1, 0.5));
 }
@@ -230,7 +232,8 @@ TEST_CASE("the folder of a row is the case with its own values")
     copyColumn(folder.path());
     const CaseDirectory here(folder.path());
     const AccuracyCase base(here, false);
-    const MatrixRow row{"fine", "", {{"cellSize", "0.2"}, {"shape", "linear"}, {"splitting", "off"}, {"transfer", "APIC"}}};
+    const MatrixRow row{
+        "fine", "", {{"cellSize", "0.2"}, {"shape", "linear"}, {"splitting", "off"}, {"transfer", "APIC"}}};
     base.make(row);
     const auto made = folder.path() / "accuracyCost/fine";
     const auto text = [&](const char* file) { return tests::contents(made / file); };

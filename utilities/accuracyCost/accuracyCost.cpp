@@ -38,8 +38,11 @@ Plan readPlan(const cases::CaseDirectory& here)
     if (const auto* exact = dict.findDict("exact", "the exact solution"))
         plan.exact = cases::ExactSolution(*exact, dim);
     plan.measures = cases::readMeasures(dict, plan.exact, dim);
-    plan.repeats = dict.get<Index>({"repeats", "of each run, for its time; 0: three of short runs", {},
-                                    dictionary::Bound::between(0, 1000), Index(0)});
+    plan.repeats = dict.get<Index>({"repeats",
+                                    "of each run, for its time; 0: three of short runs",
+                                    {},
+                                    dictionary::Bound::between(0, 1000),
+                                    Index(0)});
     dict.rejectUnread();
     return plan;
 }
