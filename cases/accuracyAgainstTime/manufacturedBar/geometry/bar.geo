@@ -1,8 +1,8 @@
-// One period of the bar: its odd extension makes it two lengths long. 1/16 m thick, one of the largest cells. Metres.
+// One period of the bar: its odd extension makes it two lengths long. 1/32 m thick, one of the largest cells. Metres.
 Point(1) = {0, 0, 0};
 Point(2) = {2, 0, 0};
-Point(3) = {2, 0.0625, 0};
-Point(4) = {0, 0.0625, 0};
+Point(3) = {2, 0.03125, 0};
+Point(4) = {0, 0.03125, 0};
 
 Line(1) = {1, 2};
 Line(2) = {2, 3};
