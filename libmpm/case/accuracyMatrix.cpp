@@ -172,7 +172,7 @@ std::string curveName(const std::string& method, const Axes& axes, const Setting
     for (const Axis& axis : catalogue())
         if (const auto found = axes.find(axis.word);
             found != axes.end() && found->second.size() > 1 && !isResolution(axis.word))
-            name += (name.empty() ? "" : " ") + shown(axis.word, setting.at(axis.word));
+            name.append(name.empty() ? "" : " ").append(shown(axis.word, setting.at(axis.word)));
     return name.empty() ? "as in the case" : name;
 }
 

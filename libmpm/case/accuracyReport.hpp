@@ -1,6 +1,6 @@
 #pragma once
 /// What accuracyCost says on the terminal: orders, the Pareto front, and which setting is the cheapest for an error.
-#include "case/accuracyTable.hpp"
+#include "case/accuracyCostTable.hpp"
 
 namespace mpm::cases
 {

@@ -45,7 +45,7 @@ void ExpressionForce::acceleration(const state::Particles& p, Index first, int c
             place += fmt::format("{}{:g}", k ? ", " : "", p.x[std::size_t(k)][i]);
         const std::lock_guard lock(mutex_);
         faults_.emplace(p.id[i],
-                        fmt::format("the body force on particle {} at ({}) is {}: {}: value: \"{}\"", p.id[i], place,
+                        fmt::format("the body force on particle {} at ({}), {:.9g} s is {}: {}: value: \"{}\"", p.id[i], place, time,
                                     b[a][bad], value_[a].where().text(), value_[a].text()));
         std::fill_n(b[a], lanes, 0.0);
     }

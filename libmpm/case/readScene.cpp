@@ -319,12 +319,13 @@ void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Mater
 }
 } // namespace
 
-SceneOfCase readScene(const CaseDirectory& folder, state::State& state)
+SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Overrides& overrides)
 {
     SceneOfCase out;
     std::vector<std::pair<std::string, Dictionary>> read;
     const auto open = [&](const std::string& name) -> const Dictionary& {
         read.emplace_back(name, Dictionary::readFile(folder.dictionaryPath(name)));
+        overrides.apply(name, read.back().second);
         return read.back().second;
     };
     read.reserve(8);

@@ -11,6 +11,7 @@
 ///     free.
 /// system/mpmSchemes: case/readSchemes.hpp
 #include "case/caseDirectory.hpp"
+#include "case/overrides.hpp"
 #include "dictionary/dictionary.hpp"
 #include "stepping/stepper.hpp"
 
@@ -35,5 +36,6 @@ struct SceneOfCase
 
 /// Reads all of the above for a state, and checks that nothing was left unread, that the grid of system/gridDict is the
 /// lattice the state was seeded on (its box may be wider now; the state takes it), and that materials match by name.
-SceneOfCase readScene(const CaseDirectory& folder, state::State& state);
+/// Overrides change the dictionaries as they are read.
+SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Overrides& overrides = {});
 } // namespace mpm::cases

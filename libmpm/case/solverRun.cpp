@@ -16,10 +16,11 @@
 namespace mpm::cases
 {
 
-SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
-    : folder_(folder), options_(options), series_(folder.folder(), folder.name())
+SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const Overrides& overrides)
+    : folder_(folder), options_(options), overrides_(overrides), series_(folder.folder(), folder.name())
 {
-    const auto control = dictionary::Dictionary::readFile(folder.dictionaryPath("system/controlDict"));
+    const std::string controlFile = "system/controlDict";
+    auto control = dictionary::Dictionary::readFile(folder.dictionaryPath(controlFile));
     runTime_.emplace(control);
     auto record = StrainRecorder::wanted(control);
     monitor_.emplace(control, runTime_->adjustable(), !record.empty());
@@ -29,9 +30,13 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options)
     lastStored_ = start.name;
     laterTimes_ = laterTimes(start);
     state_ = output::readState(folder.statePath(start.name));
+    if (state_.step > 0)
+        overrides_ = Overrides::recall(state_);
+    overrides_.apply(controlFile, control);
+    runTime_.emplace(control);
     if (state_.particles.size() == 0)
         throw InputError(folder.statePath(start.name).string() + ": found no particles; run seedParticles");
-    scene_ = readScene(folder, state_);
+    scene_ = readScene(folder, state_, overrides_);
     if (fields)
         provideReference(state_, *fields);
     scene_.dictionaries += "// system/controlDict\n" + control.text();
@@ -127,6 +132,7 @@ void SolverRun::openOutput()
     recordInstructionSet(state_, instructionSet());
     recordStorage(state_, storage());
     state_.provenance["dictionaries"] = scene_.dictionaries;
+    overrides_.remember(state_);
     if (done())
         writeSeries(); // a run killed at its very end may lack it
     progress_ = std::make_unique<Progress>("mpmSolve", state_.time, runTime_->endTime());
@@ -139,12 +145,17 @@ stepping::StabilityLimit SolverRun::stabilityLimit() const
 }
 
 /// maxCo bounds the Courant number with the particles' own speed; the stability limit is kept with a margin.
+double SolverRun::allowedStep(const stepping::StabilityLimit& limit) const
+{
+    const double courant = runTime_->maxCo() * state_.grid.h / (limit.waveSpeed + limit.speed);
+    return state_.stepFactor * std::min(courant, 0.9 * limit.deltaT);
+}
+
 double SolverRun::stepSize() const
 {
     if (!runTime_->adjustable())
         return runTime_->nextStep(state_.time, 0);
-    const double courant = runTime_->maxCo() * state_.grid.h / (limit_.waveSpeed + limit_.speed);
-    const double wanted = state_.stepFactor * std::min(courant, 0.9 * limit_.deltaT);
+    const double wanted = allowedStep(limit_);
     return runTime_->nextStep(state_.time, state_.step == 0 ? std::min(wanted, runTime_->deltaT()) : wanted);
 }
 

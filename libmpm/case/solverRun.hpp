@@ -9,6 +9,9 @@
 #include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
+#include "case/costPrediction.hpp"
+#include "case/overrides.hpp"
+#include "case/pickSetting.hpp"
 #include "case/readScene.hpp"
 #include "case/runMonitor.hpp"
 #include "case/runProfile.hpp"
@@ -29,12 +32,19 @@ class StrainRecorder;
 class SolverRun
 {
   public:
-    /// Reads the dictionaries and the state, builds the stepper, refuses an unstable deltaT.
-    SolverRun(const CaseDirectory& folder, const Options& options);
+    /// Reads the dictionaries and the state, builds the stepper, refuses an unstable deltaT. A run that goes on takes
+    /// the overrides of its state.
+    SolverRun(const CaseDirectory& folder, const Options& options, const Overrides& overrides = {});
     ~SolverRun();
 
     /// What was chosen, one line a fact.
     void banner() const;
+    /// Setting, end and steps done.
+    PresentCase presentCase() const;
+    /// What the run will cost, from steps that are thrown away: the run itself is of no use afterwards. Writes nothing.
+    CostPrediction rehearse();
+    /// The same on the screen.
+    void printPrediction(const CostPrediction& prediction) const;
     /// Begins postProcessing/history.csv and energyBudget.csv, or continues them.
     void openOutput();
     bool done() const { return runTime_->done(state_.time); }
@@ -54,7 +64,11 @@ class SolverRun
     TimeFolder startFolder() const;
     std::vector<std::string> laterTimes(const TimeFolder& start) const;
     stepping::StabilityLimit stabilityLimit() const;
+    double allowedStep(const stepping::StabilityLimit& limit) const;
     double stepSize() const;
+    bool rehearseStep(std::string& fault);
+    void rehearseSteps(Rehearsal& rehearsal, double steps, double start);
+    void rehearseOutput(Rehearsal& rehearsal);
     double nextStep();
     std::string tryStep();
     void goBack(const std::string& why);
@@ -70,6 +84,7 @@ class SolverRun
     RunProfile profile_; ///< first: its time begins with the run's
     const CaseDirectory& folder_;
     const Options& options_;
+    Overrides overrides_;
     std::optional<RunTime> runTime_;
     state::State state_;
     SceneOfCase scene_;

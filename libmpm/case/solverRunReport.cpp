@@ -81,6 +81,9 @@ void SolverRun::banner() const
     if (const auto periodic = periodicAxes(state_.grid); !periodic.empty())
         line("periodic", "along " + joinWords(periodic, " and "));
     line("method", scene_.shape + ", " + stepping::methodText(s));
+    if (!overrides_.empty())
+        line("overridden", fmt::format("{}, by {}{}", overrides_.describe(), overrides_.reason(),
+                                       state_.step > 0 ? ", with which this run began" : ""));
     for (const auto& material : s.materials)
         line("material", fmt::format("{}: {}, density {:g} kg/m^3, c_p {:.1f} m/s", material.name,
                                      material.law->describe(), material.density, material.waveSpeed()));
@@ -114,6 +117,14 @@ void SolverRun::banner() const
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
         if (!note.empty())
             line("note", note);
+}
+
+void SolverRun::printPrediction(const CostPrediction& prediction) const
+{
+    for (const auto& [what, text] : predictionLines(prediction))
+        line(what, text);
+    for (const auto& [what, text] : expectedErrorLines(folder_, options_, presentCase()))
+        line(what, text);
 }
 
 void SolverRun::warnings() const

@@ -10,6 +10,8 @@ namespace mpm::cases
 {
 namespace
 {
+const std::vector<std::string> columns = {"particle", "time", "exx", "eyy", "ezz", "exy", "eyz",
+                                          "ezx",      "sxx",  "syy", "szz", "sxy", "syz", "szx"};
 const std::string memoryName = "strainPaths"; // in the provenance of a state
 
 /// log A = 2 (Z + Z^3/3 + Z^5/5 ...), Z = (A - I)(A + I)^-1; A close to I, as the motion of one step is.
@@ -74,8 +76,6 @@ void StrainRecorder::open(const std::filesystem::path& file, const state::State&
                           std::optional<double> continueAt)
 {
     const bool goesOn = continueAt && resumed_ && std::filesystem::exists(file);
-    const std::vector<std::string> columns = {"particle", "time", "exx", "eyy", "ezz", "exy", "eyz",
-                                              "ezx",      "sxx",  "syy", "szz", "sxy", "syz", "szx"};
     series_ = std::make_unique<output::CsvSeries>(file, columns, goesOn ? continueAt : std::nullopt, 1);
     for (auto& path : paths_)
         if (!goesOn)
@@ -84,6 +84,11 @@ void StrainRecorder::open(const std::filesystem::path& file, const state::State&
             path.strain = Eigen::Matrix3d::Zero();
             write(state, path);
         }
+}
+
+void StrainRecorder::rehearse(const std::filesystem::path& memoryFile)
+{
+    series_ = std::make_unique<output::CsvSeries>(output::CsvSeries::rehearsal(memoryFile, columns, 1));
 }
 
 void StrainRecorder::remember(state::State& state) const

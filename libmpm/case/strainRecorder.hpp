@@ -35,6 +35,8 @@ class StrainRecorder
     /// Continues from there; `memory` is what recall() returned.
     void resume(const std::string& memory);
     void open(const std::filesystem::path& file, const state::State& state, std::optional<double> continueAt);
+    /// Rows go to a file in memory: for measuring what they cost.
+    void rehearse(const std::filesystem::path& memoryFile);
     /// Brings the rows to the disk.
     void synchronise() const;
     void before(const state::State& state);

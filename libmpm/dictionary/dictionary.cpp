@@ -166,6 +166,18 @@ void Dictionary::set(const std::string& word, const std::string& value, const st
         node->add(std::move(entry));
 }
 
+void Dictionary::drop(const std::string& word)
+{
+    Node& node = *body_->node;
+    const auto found = node.index.find(word);
+    if (found == node.index.end())
+        return;
+    node.entries.erase(node.entries.begin() + std::ptrdiff_t(found->second));
+    node.index.clear();
+    for (std::size_t i = 0; i < node.entries.size(); ++i)
+        node.index.emplace(node.entries[i].word, i);
+}
+
 void Dictionary::checkDimensions(const Dimensions& expected, const std::string& word) const
 {
     const Dimensions given = get<Dimensions>({word, "exponents of kg m s K mol A cd", unit::none, {}, expected});

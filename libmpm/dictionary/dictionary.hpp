@@ -160,6 +160,9 @@ class Dictionary
     /// Sets or replaces an entry, as a command-line override does; `where` is what messages will name.
     void set(const std::string& word, const std::string& value, const std::string& where = "command line");
 
+    /// Takes an entry or a nested dictionary away, if it is there.
+    void drop(const std::string& word);
+
     /// The text of the dictionary as it was understood: macros expanded, includes merged (provenance).
     std::string text() const;
 

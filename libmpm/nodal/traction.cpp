@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -9,6 +10,16 @@ namespace mpm::nodal
 {
 namespace
 {
+/// What a node carries of a load, or tells of a patch's motion. A surface that lies delta beyond a line of nodes, in
+/// cells, gives these nodes a mass of delta^2/2, a hat of delta and so velocities of 1/delta: particles do not feel
+/// them (their weights are delta^2), but a patch that followed them would be torn apart. So light nodes do not move it,
+/// and take no more of the load than the delta that their mass stands for.
+enum class Use
+{
+    load,
+    motion
+};
+
 /// Hat functions of the 2^dim nodes around an element's centre, renormalised over nodes with mass.
 template <int dim>
 struct PointWeights
@@ -19,7 +30,7 @@ struct PointWeights
     double G[count][dim];
 
     PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::TileGrid& nodes,
-                 double smallestMass)
+                 double smallestMass, Use use)
     {
         Index base[3] = {0, 0, 0};
         double t[3] = {0, 0, 0};
@@ -29,7 +40,7 @@ struct PointWeights
             base[a] = Index(std::floor(s));
             t[a] = s - std::floor(s);
         }
-        double total = 0, slope[dim] = {};
+        double total = 0, slope[dim] = {}, heaviest = 0;
         for (int c = 0; c < count; ++c)
         {
             Index index[3] = {base[0], base[1], base[2]};
@@ -50,6 +61,20 @@ struct PointWeights
                 node[c] = nullptr;
                 continue;
             }
+            heaviest = std::max(heaviest, (*node[c])[0]);
+        }
+        for (int c = 0; c < count; ++c)
+        {
+            if (!node[c])
+                continue;
+            const double mass = (*node[c])[0];
+            if (use == Use::motion && mass < 0.01 * heaviest)
+            {
+                node[c] = nullptr;
+                continue;
+            }
+            if (use == Use::load)
+                N[c] = std::min(N[c], 2 * std::sqrt(mass / heaviest));
             total += N[c];
             for (int a = 0; a < dim; ++a)
                 slope[a] += G[c][a];
@@ -88,7 +113,7 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
     {
         const Vector3 area = areaVector<dim>(patch, e);
         const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass);
+        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass, Use::load);
         for (int c = 0; c < w.count; ++c)
         {
             if (!w.node[c])
@@ -129,7 +154,7 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 {
     for (Index e = 0; e < patch.size(); ++e)
     {
-        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass);
+        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass, Use::motion);
         double v[dim] = {}, L[dim][dim] = {};
         for (int c = 0; c < w.count; ++c)
             if (w.node[c])

@@ -44,6 +44,19 @@ CsvSeries::CsvSeries(const std::filesystem::path& file, std::vector<std::string>
         throw InputError({file_.string()}, "cannot be written");
 }
 
+CsvSeries CsvSeries::rehearsal(const std::filesystem::path& file, std::vector<std::string> columns,
+                               std::size_t timeColumn)
+{
+    CsvSeries series;
+    series.file_ = file;
+    series.columns_ = std::move(columns);
+    series.timeColumn_ = timeColumn;
+    series.stream_.open(file, std::ios::app);
+    if (!series.stream_)
+        throw InputError({file.string()}, "cannot be written");
+    return series;
+}
+
 std::string CsvSeries::keptRows(double until)
 {
     std::ifstream stream(file_);

@@ -25,6 +25,10 @@ class CsvSeries
     CsvSeries(const std::filesystem::path& file, std::vector<std::string> columns,
               std::optional<double> continueAt = std::nullopt, std::size_t timeColumn = 0);
 
+    /// Rows go to an open file that is there (memoryFile.hpp), without a header: for measuring what they cost.
+    static CsvSeries rehearsal(const std::filesystem::path& file, std::vector<std::string> columns,
+                               std::size_t timeColumn = 0);
+
     /// One value a column. Throws InputError if the row cannot be written (disk full).
     void write(std::span<const double> row);
     void write(std::initializer_list<double> row) { write(std::span(row.begin(), row.size())); }
@@ -36,12 +40,13 @@ class CsvSeries
     std::optional<double> lastTime() const { return lastTime_; }
 
   private:
+    CsvSeries() = default;
     std::string keptRows(double until);
 
     std::filesystem::path file_;
     std::vector<std::string> columns_;
     std::ofstream stream_;
-    std::size_t timeColumn_;
+    std::size_t timeColumn_ = 0;
     std::optional<double> lastTime_;
 };
 

@@ -143,12 +143,13 @@ Handle openAttribute(hid_t file, const std::string& object, const std::string& n
 
 // Files ---------------------------------------------------------------------------------------------------------------
 
-Hdf5File::Hdf5File(std::filesystem::path file, std::int64_t handle)
-    : path_(std::move(file)), file_(handle), allowance_(16 * lengthOnDisk(path_))
+Hdf5File::Hdf5File(std::filesystem::path file, std::int64_t handle, bool onDisk)
+    : path_(std::move(file)), file_(handle), onDisk_(onDisk), allowance_(16 * lengthOnDisk(path_))
 {}
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), allowance_(other.allowance_)
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), onDisk_(other.onDisk_),
+      allowance_(other.allowance_)
 {}
 
 Hdf5File::~Hdf5File()
@@ -157,12 +158,21 @@ Hdf5File::~Hdf5File()
         H5Fclose(file_);
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file)
+Hdf5File Hdf5File::create(const std::filesystem::path& file, bool onDisk)
 {
-    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, strongAccess());
+    const Handle access = strongAccess();
+    if (!onDisk)
+        H5Pset_fapl_core(access, 1 << 20, false); // grows by so many bytes
+    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     if (id < 0)
         throw InputError({file.string()}, "cannot be written (is the folder there and writable?)");
-    return Hdf5File(file, id);
+    return Hdf5File(file, id, onDisk);
+}
+
+double Hdf5File::bytes() const
+{
+    H5Fflush(file_, H5F_SCOPE_GLOBAL);
+    return double(H5Fget_file_image(file_, nullptr, 0)); // without the room a file in memory keeps
 }
 
 std::int64_t Hdf5File::openExisting(const std::filesystem::path& file, bool writable)
@@ -285,7 +295,7 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
 void Hdf5File::followDisk()
 {
     void* descriptor = nullptr; // of the file driver for plain files, which is the default
-    if (H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
+    if (onDisk_ && H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor)
         pace_.follow(*static_cast<const int*>(descriptor));
 }
 

@@ -39,9 +39,10 @@ using RowTaker = std::function<void(Index first, Index rows, const T* in)>;
 class Hdf5File
 {
   public:
-    static Hdf5File create(const std::filesystem::path& file); ///< new and empty; an old file of that name is lost
-    static Hdf5File open(const std::filesystem::path& file);   ///< to read
-    static Hdf5File edit(const std::filesystem::path& file);   ///< to read and write
+    /// New and empty; an old file of that name is lost. Not onDisk: in memory, gone with the object.
+    static Hdf5File create(const std::filesystem::path& file, bool onDisk = true);
+    static Hdf5File open(const std::filesystem::path& file); ///< to read
+    static Hdf5File edit(const std::filesystem::path& file); ///< to read and write
     ~Hdf5File();
     Hdf5File(Hdf5File&& other) noexcept;
     Hdf5File& operator=(Hdf5File&&) = delete;
@@ -50,6 +51,9 @@ class Hdf5File
 
     /// Closes and reports what could not be written; the destructor closes silently.
     void close();
+
+    /// Its length, once all is flushed [bytes].
+    double bytes() const;
 
     /// A group with those above it, if they are not there.
     void makeGroup(const std::string& name);
@@ -120,7 +124,7 @@ class Hdf5File
     template <class T>
     static Element elementOf();
 
-    Hdf5File(std::filesystem::path file, std::int64_t handle);
+    Hdf5File(std::filesystem::path file, std::int64_t handle, bool onDisk = true);
     static std::int64_t openExisting(const std::filesystem::path& file, bool writable);
 
     // hdf5File.cpp: bytes and handles. An empty attribute name means the dataset itself.
@@ -149,7 +153,8 @@ class Hdf5File
     [[noreturn]] void fail(const std::string& object, const std::string& attribute, const std::string& message) const;
 
     std::filesystem::path path_;
-    std::int64_t file_ = -1;              ///< HDF5's handle
+    std::int64_t file_ = -1; ///< HDF5's handle
+    bool onDisk_ = true;
     mutable std::uint64_t allowance_ = 0; ///< bytes that may still be read
     DiskPace pace_;
 };

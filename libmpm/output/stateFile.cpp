@@ -274,9 +274,8 @@ int readDimension(const Hdf5File& file)
     return int(dim);
 }
 
-void writeAll(const std::filesystem::path& name, const state::State& state)
+void writeAll(Hdf5File& file, const state::State& state)
 {
-    Hdf5File file = Hdf5File::create(name);
     writeRoot(file, state);
     writeParticles(file, state.particles);
     writeLedger(file, state.ledger, state.particles.dim);
@@ -285,7 +284,6 @@ void writeAll(const std::filesystem::path& name, const state::State& state)
     for (const auto& [key, text] : state.provenance)
         file.writeText("/provenance/" + encoded(key), text);
     writeVisualisation(file, state.particles);
-    file.close();
 }
 } // namespace
 
@@ -296,7 +294,9 @@ PendingState::PendingState(const std::filesystem::path& timeFolder, const state:
     makeFolder(timeFolder);
     try
     {
-        writeAll(temporaryName(file_), state);
+        auto file = Hdf5File::create(temporaryName(file_));
+        writeAll(file, state);
+        file.close();
     }
     catch (const InputError&)
     {
@@ -329,6 +329,14 @@ void PendingState::remove() const
 void writeState(const std::filesystem::path& timeFolder, const state::State& state)
 {
     PendingState(timeFolder, state).commit();
+}
+
+double rehearseState(const state::State& state)
+{
+    requireValid(state, "the state");
+    auto file = Hdf5File::create("a state in memory", false);
+    writeAll(file, state);
+    return file.bytes();
 }
 
 state::State readState(const std::filesystem::path& name)

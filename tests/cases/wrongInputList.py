@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
+import accuracyTable
+
 
 @dataclass
 class Entry:
@@ -120,6 +122,11 @@ COLUMN = "geometry/column.geo"
 SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n")
 
+def measured(*rows):
+    """postProcessing/accuracyCost.csv with these rows."""
+    return lambda case: accuracyTable.write(case, rows)
+
+
 GROUPS = [
     ("Options", [
         Entry("an option that does not exist", "mpmSolve -fast"),
@@ -140,6 +147,26 @@ GROUPS = [
         Entry("a time that is none", "smoothStress -time now"),
         Entry("a range that runs backwards", "smoothStress -time 2:1"),
         Entry("two ways to choose the time", "smoothStress -time 0 -latestTime"),
+        Entry("a time within which nothing runs", "mpmSolve -withinTime 0"),
+        Entry("an error that is no number", "mpmSolve -withinError small"),
+        Entry("two wishes at once", "mpmSolve -withinTime 60 -withinError 0.01"),
+        Entry("a wish without a table to choose from", "mpmSolve -withinError 0.01"),
+        Entry("a measure without a table", "mpmSolve -dry-run -errorMeasure runOut"),
+        Entry("a measure that is not in the table", "mpmSolve -withinError 0.01 -errorMeasure runout",
+              measured(accuracyTable.row("a"))),
+        Entry("an error no row has", "mpmSolve -withinError 1e-6", measured(accuracyTable.row("a"))),
+        Entry("an error only another seeding has", "mpmSolve -withinError 0.01",
+              measured(accuracyTable.row("a"), accuracyTable.row("b", cellSize="0.1333333333333333", error=0.009))),
+        Entry("a table of other seedings", "mpmSolve -withinError 0.1",
+              measured(accuracyTable.row("a", particlesPerCell=3))),
+        Entry("a table in which nothing was done", "mpmSolve -withinError 0.1",
+              measured(accuracyTable.row("a", status="failed", error=""))),
+        Entry("a table of another run", "mpmSolve -withinError 0.1", measured(accuracyTable.row("a", endTime=1))),
+        Entry("a table of another version", "mpmSolve -withinError 0.1",
+              measured(accuracyTable.row("a", version="0.0.1 0123456789, native"))),
+        Entry("a table that is none", "mpmSolve -withinError 0.1",
+              write("postProcessing/accuracyCost.csv", "a table\n")),
+        Entry("a row that is no row", "mpmSolve -withinError 0.1", measured(accuracyTable.row("a", cellSize="fine"))),
         Entry("a target that is the case", "splitParticles -target ."),
         Entry("a law nobody wrote", "driveLaw -law constant/none -path oedometer"),
         Entry("a path that is none", "driveLaw -law constant/materialProperties -path biaxial"),

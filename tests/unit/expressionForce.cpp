@@ -107,12 +107,12 @@ TEST_CASE("a value that is not finite ends the run with particle, place and time
         for (int i = 0; i < 10; ++i)
             stepper->step(0.0015);
     });
-    CHECK(message == "step 2 at time 0.003 s: the body force on particle 0 at (1.125, 1.12498) is inf: "
-                     "constant/bodyForce:1: value: \"1/(t - 0.003)\"");
+    CHECK_THAT(message, Contains("the body force on particle 0 at (1.125, 1.12") &&
+                            Contains("), 0.003 s is inf: constant/bodyForce:1: value: \"1/(t - 0.003)\""));
     scene.bodyForce = force("value (\"sqrt(2.9 - x)\" 0);");
     auto t = block();
     CHECK_THAT(faultOf([&] { cases::makeStepper("linear", t, scene)->step(1e-3); }),
-               Contains("the body force on particle 8 at (3.125, 1.125) is") && Contains("nan"));
+               Contains("the body force on particle 8 at (3.125, 1.125), 0 s is") && Contains("nan"));
 }
 
 TEST_CASE("reference positions: given to a state of step 0, demanded of a later one")

@@ -1,0 +1,19 @@
+// A vertical cut of height 2 m, its toe at (1, 0.5), above a layer of half a metre.
+Point(1) = {0, 0, 0};
+Point(2) = {4.5, 0, 0};
+Point(3) = {4.5, 2.5, 0};
+Point(4) = {1, 2.5, 0};
+Point(5) = {1, 0.5, 0};
+Point(6) = {0, 0.5, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Physical Surface("soil") = {1};
+Physical Curve("base") = {1};
+Physical Curve("back") = {2};
+Physical Curve("front") = {6};
