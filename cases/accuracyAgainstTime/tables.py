@@ -62,6 +62,8 @@ def main():
     readme = HERE / "README.md"
     text = readme.read_text()
     for scene, measure in MARK.findall(text):
+        if not (HERE / scene / "postProcessing" / "accuracyCost.csv").is_file():
+            sys.exit(f"{scene} was not run")
         new = f"<!-- table {scene} {measure} -->\n{table(scene, measure)}\n<!-- end -->"
         text = re.sub(rf"<!-- table {scene} {measure} -->\n.*?<!-- end -->", lambda _, new=new: new, text, flags=re.S)
         shutil.copy(HERE / scene / "postProcessing" / "figures" / f"accuracyCost-{measure}.png", HERE / f"{scene}-{measure}.png")
