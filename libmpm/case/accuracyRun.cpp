@@ -177,6 +177,7 @@ class Work
         {
             const auto facts = base.facts(rows[i]);
             const auto key = base.key(rows[i]);
+            refused_ += !facts.refused.empty();
             if (!facts.refused.empty())
                 results_[i] = {.key = key, .status = "refused", .reason = facts.refused, .machine = {}};
             else if (!options.again)
@@ -193,7 +194,7 @@ class Work
     std::vector<RowResult> run()
     {
         if (known_ > 0)
-            fmt::print("  {} of {} rows are known\n", known_, rows_.size());
+            fmt::print("  {} of {} rows are known, {} refused\n", known_ - refused_, rows_.size(), refused_);
         if (todo_.empty())
             return std::move(results_);
         progress_ = std::make_unique<Progress>("accuracyCost", 0, all_);
@@ -264,7 +265,7 @@ class Work
     std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> failed_ = false;
     std::exception_ptr failure_;
-    std::size_t known_ = 0, finished_ = 0;
+    std::size_t known_ = 0, refused_ = 0, finished_ = 0;
     double all_ = 0, done_ = 0;
 };
 } // namespace

@@ -140,7 +140,7 @@ class AccuracyCost(unittest.TestCase):
         before = self.stamps()
         self.assertEqual(len(before), 12)
         self.write(DICT.replace("scale 1;", "scale 2;").replace("cellSize (5 2.5 3 1.25)", "cellSize (5 2.5 10)"))
-        self.assertIn("8 of 12 rows are known", self.run_utility("-noFigures"))
+        self.assertIn("8 of 12 rows are known, 4 refused", self.run_utility("-noFigures"))
         after = self.stamps()
         self.assertEqual({name: after[name] for name in before}, before, "measures and other rows cost nothing")
         with open(self.case / "system" / "controlDict", "a") as file:
