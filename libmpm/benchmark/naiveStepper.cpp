@@ -246,6 +246,9 @@ class Naive : public NaiveStepper
                 chunk.stress[k][l] = p.sigma[k];
         }
         alignas(64) double J[lanes];
+        constitutive::toMidStep(scene_.stressUpdate == stepping::StressUpdate::USF ? constitutive::TakenOver::end
+                                                                                   : constitutive::TakenOver::start,
+                                dt, L);
         constitutive::strainIncrement(L, dt, chunk.dStrain);
         constitutive::advanceDeformation(L, dt, F);
         constitutive::determinant(F, J);

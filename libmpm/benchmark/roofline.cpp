@@ -27,6 +27,8 @@ ShapeCount countOf(const std::string& shape)
         return {3, 23, true, true};
     if (shape == "quadraticBSpline")
         return {3, 17, false, false};
+    if (shape == "cubicBSpline")
+        return {4, 32, false, false};
     throw InputError("the list of bytes and flops has no shape '" + shape + "'");
 }
 
@@ -78,7 +80,7 @@ double countFlops(int dim, const ShapeCount& shape, StressUpdate update, double 
 {
     const double d = dim, s = stressComponents(dim);
     const SupportFlops support(dim, shape.nodes);
-    const double kinematics = dim == 2 ? 4 + 63 + 28 + 3 + 1 : 9 + 220 + 112 + 14 + 1;
+    const double kinematics = dim == 2 ? 16 + 4 + 63 + 28 + 3 + 1 : 118 + 9 + 220 + 112 + 14 + 1;
     const double domains = shape.follows ? (dim == 2 ? 22 : 1029) : 0;
     double flops = d * shape.weightFlops + kinematics + domains + law;
     flops += d + (dim == 2 ? 3 : 6) + support.project(1 + d) + support.projectForces();
@@ -98,6 +100,18 @@ double countFlops(int dim, const ShapeCount& shape, StressUpdate update, double 
     return flops;
 }
 } // namespace
+
+const std::vector<std::string>& countedShapes()
+{
+    static const std::vector<std::string> names{"uGIMP", "cpGIMP", "quadraticBSpline", "cubicBSpline", "linear"};
+    return names;
+}
+
+const std::vector<std::string>& countedLaws()
+{
+    static const std::vector<std::string> names{"mohrCoulomb", "linearElastic"};
+    return names;
+}
 
 Work countedWork(int dim, const std::string& shape, StressUpdate update, const std::string& law,
                  std::size_t storedBytes)

@@ -21,16 +21,17 @@
 /// two), each product over axes summed axis by axis (x innermost), weights and gradients once a step; selections,
 /// comparisons, signs, conversions and everything at nodes count nothing. n: nodes of the support an axis.
 ///
-///     weights an axis   linear 5, uGIMP 23, quadraticBSpline 17 (as in shape/); cpGIMP as uGIMP, which it is while no
-///                       domain is wider than a cell
+///     weights an axis   linear 5, uGIMP 23, quadraticBSpline 17, cubicBSpline 32 (as in shape/); cpGIMP as uGIMP,
+///                       which it is while no domain is wider than a cell
 ///     projection of c columns               2D n c + 2 n^2 c        3D (n + n^2) c + 2 n^3 c
 ///     projection of internal forces         2D 2 n d + 4 n^2 d      3D 3 n d + 4 n^2 d + 4 n^3 d
 ///     interpolation of c columns            2D 2 (n^2 + n) c        3D 2 (n^3 + n^2 + n) c
 ///     gradient of a vector                  2D 4 (n^2 + n) d        3D 4 n^3 d + 6 (n^2 + n) d
 ///     m v and V sigma: d and 3 or 6; v += dt a and its energy, x += dt v: 6d + 1; work of strain 2s + 2 (not USL)
-///     dt D, exp(dt L) F, dR sigma dR^T, det F, V:   2D 4 + 63 + 28 + 3 + 1      3D 9 + 220 + 112 + 14 + 1 (small
-///     steps) domains of cpGIMP: 2D 22, 3D 1029 linearElastic: 2D 14, 3D 18; mohrCoulomb: 2D 104, 3D 339
-///     (constitutive/, all operations of one lane)
+///     L over mid-step, dt D, exp(dt L) F, dR sigma dR^T, det F, V (small steps):
+///                       2D 16 + 4 + 63 + 28 + 3 + 1     3D 118 + 9 + 220 + 112 + 14 + 1
+///     domains of cpGIMP: 2D 22, 3D 1029; linearElastic: 2D 14, 3D 18; mohrCoulomb: 2D 104, 3D 339 (constitutive/, all
+///     operations of one lane)
 ///
 /// MUSL projects mass, momentum and forces, then momentum again; interpolates a, v* and grad w. USL: a, grad v* and
 /// the outermost sums of v*, 2 n d (the others are those of the gradient). USF projects mass and momentum, then
@@ -48,8 +49,11 @@ struct Work
     double bytes = 0, flops = 0; ///< of one particle and step
 };
 
-/// What is counted. shape: linear, uGIMP, cpGIMP, quadraticBSpline; law: linearElastic, mohrCoulomb. Throws InputError
-/// for a word the list does not have. storedBytes: of v, F, sigma and l.
+/// The shapes and laws that are counted, the default first.
+const std::vector<std::string>& countedShapes();
+const std::vector<std::string>& countedLaws();
+
+/// What is counted. Throws InputError for a word the lists do not have. storedBytes: of v, F, sigma and l.
 Work countedWork(int dim, const std::string& shape, stepping::StressUpdate update, const std::string& law,
                  std::size_t storedBytes = sizeof(state::Stored));
 

@@ -1,8 +1,7 @@
 #include "benchmark/settings.hpp"
 
 #include "base/error.hpp"
-#include "case/makeStepper.hpp"
-#include "constitutive/law.hpp"
+#include "benchmark/roofline.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -58,14 +57,6 @@ double readCount(const std::string& option, const std::string& word, double most
     return count;
 }
 
-std::vector<std::string> namesOf(const std::vector<dictionary::Choice>& choices)
-{
-    std::vector<std::string> names;
-    for (const auto& choice : choices)
-        names.push_back(choice.name);
-    return names;
-}
-
 stepping::StressUpdate updateOf(const std::string& word)
 {
     return word == "USF"   ? stepping::StressUpdate::USF
@@ -90,11 +81,10 @@ void multiply(std::vector<Setting>& rows, const std::vector<Value>& values, cons
 
 std::vector<cases::ExtraOption> settingOptions()
 {
-    const auto list = [](const std::vector<dictionary::Choice>& choices) { return joinWords(namesOf(choices), ", "); };
     return {{"dimension", "LIST", "2, 3 (default: 2)"},
-            {"shape", "LIST", list(cases::shapeCatalogue()) + " (default: uGIMP)"},
+            {"shape", "LIST", joinWords(countedShapes(), ", ") + " (default: uGIMP)"},
             {"stressUpdate", "LIST", "USF, USL, MUSL (default: MUSL)"},
-            {"law", "LIST", list(constitutive::lawCatalogue()) + " (default: mohrCoulomb)"},
+            {"law", "LIST", joinWords(countedLaws(), ", ") + " (default: mohrCoulomb)"},
             {"particles", "LIST", "how many, like 7200, 115k, 1.04M (default: 7.2k,115k; in 3D 93k)"},
             {"threads", "LIST", "numbers of threads (default: 1)"},
             {"splitting", "", "with the column's splitting"},
@@ -117,9 +107,9 @@ std::vector<Setting> readSettings(const cases::Options& options)
         throw InputError(fmt::format("-naive: found '{}', allowed on or off", options.value("naive")));
     rows[0].naive = naive[0] == "on" && !rows[0].splitting;
 
-    const auto shapes = readWords(options, "shape", namesOf(cases::shapeCatalogue()), "uGIMP");
+    const auto shapes = readWords(options, "shape", countedShapes(), "uGIMP");
     const auto updates = readWords(options, "stressUpdate", {"USF", "USL", "MUSL"}, "MUSL");
-    const auto laws = readWords(options, "law", namesOf(constitutive::lawCatalogue()), "mohrCoulomb");
+    const auto laws = readWords(options, "law", countedLaws(), "mohrCoulomb");
     std::vector<int> threads;
     for (const auto& word : split("threads", options.value("threads", "1")))
         threads.push_back(int(readCount("threads", word, mostThreads)));

@@ -10,6 +10,8 @@ namespace
 {
 /// Largest |dt L| for which the short series below are exact to round-off.
 constexpr double small = 1e-3;
+/// det(I + dt L/2) below which a step deforms too much for its middle to mean anything.
+constexpr double leastChange = 0.5;
 
 bool allSmall(const double* L, int count, double dt)
 {
@@ -151,6 +153,51 @@ void advance3(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
     }
 }
 } // namespace
+
+void toMidStep(TakenOver where, double dt, TensorLanes<2>& L)
+{
+    const double half = where == TakenOver::start ? 0.5 * dt : -0.5 * dt;
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double xx = L[0][l], xy = L[1][l], yx = L[2][l], yy = L[3][l];
+        const double J = xx * yy - xy * yx, det = 1 + half * (xx + yy + half * J);
+        // L (I + a L)^-1 = (L + a det L I)/det(I + a L)
+        const bool moderate = det > leastChange;
+        const double over = moderate ? 1 / det : 1, add = moderate ? half * J : 0;
+        L[0][l] = (xx + add) * over;
+        L[1][l] = xy * over;
+        L[2][l] = yx * over;
+        L[3][l] = (yy + add) * over;
+    }
+}
+
+// L (I + a L)^-1 = (I - (I + a L)^-1)/a would cancel; L adj(I + a L) = L (I + a (tr L I - L)) + a^2 det L I by
+// Cayley-Hamilton: adj(I + a L) = I + a (tr L I - L) + a^2 adj L, and L adj L = det L I.
+void toMidStep(TakenOver where, double dt, TensorLanes<3>& L)
+{
+    const double half = where == TakenOver::start ? 0.5 * dt : -0.5 * dt;
+    for (int g = 0; g < lanes; g += 8)
+    {
+        Record m[9], square[9];
+        for (int k = 0; k < 9; ++k)
+            m[k] = load(L[k] + g);
+        multiply3(m, m, square);
+        const Record trace = m[0] + m[4] + m[8], J = determinant3(m);
+        const Record minors = 0.5 * (trace * trace - square[0] - square[4] - square[8]);
+        const Record det = 1 + half * (trace + half * (minors + half * J));
+        const Record one = Record{} + 1.0;
+        const auto moderate = det > leastChange * one;
+        const Record over = one / select(moderate, det, one);
+        const Record a = select(moderate, half * one, Record{});
+        for (int k = 0; k < 9; ++k)
+        {
+            Record out = m[k] + a * (trace * m[k] - square[k]);
+            if (k % 4 == 0)
+                out += a * a * J;
+            store(L[k] + g, over * out);
+        }
+    }
+}
 
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
 {

@@ -1,5 +1,6 @@
 #pragma once
 /// Finite motion of one chunk over one step, from the velocity gradient L (METHOD, Geometry and Stress):
+///     L <- L (I + dt L/2)^-1              from the configuration L was taken over to that of mid-step
 ///     F <- exp(dt L) F        V = V0 det F           (det exp(dt L) = exp(dt tr L): no volume drift in rotation)
 ///     sigma <- dR sigma dR^T  dR = (I - dt W/2)^-1 (I + dt W/2), W = skew L   (Hughes & Winget 1980)
 ///     dEps = dt D,            D = sym L
@@ -14,6 +15,20 @@ template <int dim>
 using TensorLanes = double[dim * dim][lanes];
 template <int dim>
 using StressLanes = double[stressSize<dim>][lanes];
+
+/// Which end of the step the configuration belongs to that L was taken over.
+enum class TakenOver
+{
+    start, ///< the velocity that moves particles on from where they are: dx <- (I + dt L) dx
+    end    ///< the one that brought them there: dx <- (I - dt L)^-1 dx
+};
+
+/// L <- L (I + dt L/2)^-1, or with - at the end: the gradient over the mid-step configuration, which Hughes & Winget ask
+/// for. For a turn, dt L = Q - I, its symmetric part vanishes: -2 (1 - cos) a step would otherwise be taken for
+/// compression, and a body that turns would grow by half its angle of a step with every radian. Where a step deforms by
+/// half or more L is kept.
+void toMidStep(TakenOver where, double dt, TensorLanes<2>& L);
+void toMidStep(TakenOver where, double dt, TensorLanes<3>& L);
 
 /// F <- exp(dt L) F. Relative error of exp below 1e-13 for |dt L| <= 1/2.
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F);

@@ -104,6 +104,7 @@ template Vector3 Dictionary::get(const Entry<Vector3>&) const;
 template Dimensions Dictionary::get(const Entry<Dimensions>&) const;
 template std::vector<double> Dictionary::get(const Entry<std::vector<double>>&) const;
 template std::vector<std::string> Dictionary::get(const Entry<std::vector<std::string>>&) const;
+template FormulaText Dictionary::get(const Entry<FormulaText>&) const;
 template std::vector<FormulaText> Dictionary::get(const Entry<std::vector<FormulaText>>&) const;
 template std::vector<Vector3> Dictionary::get(const Entry<std::vector<Vector3>>&) const;
 

@@ -134,7 +134,7 @@ class Dictionary
 
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
     /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers),
-    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, std::vector<FormulaText>.
+    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, FormulaText, std::vector<FormulaText>.
     template <class T>
     T get(const Entry<T>& entry) const;
 

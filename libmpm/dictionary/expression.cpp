@@ -17,27 +17,12 @@ namespace
 {
 constexpr std::size_t longest = 1000;
 
-/// muParser with a place for each variable. Its parsers keep values inside, so each serves one thread at a time.
-struct Engine
+std::optional<double> numberIn(const std::string& text)
 {
-    mu::Parser parser;
-    std::vector<double> values;
-};
-
-std::unique_ptr<Engine> makeEngine(const std::string& text, const std::vector<std::string>& variables,
-                                   const Constants& constants)
-{
-    auto engine = std::make_unique<Engine>();
-    engine->values.assign(variables.size(), 0.0);
-    auto& parser = engine->parser;
-    parser.ClearConst();
-    parser.DefineConst("pi", std::numbers::pi);
-    for (const auto& [name, value] : constants)
-        parser.DefineConst(name, value);
-    for (std::size_t k = 0; k < variables.size(); ++k)
-        parser.DefineVar(variables[k], &engine->values[k]);
-    parser.SetExpr(text);
-    return engine;
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
 std::vector<std::string> functionNames()
@@ -76,13 +61,18 @@ bool assigns(const std::string& s)
     return false;
 }
 
-std::string allowedNames(const std::vector<std::string>& variables, const Constants& constants)
+std::vector<std::string> knownNames(const std::vector<std::string>& variables, const Constants& constants)
 {
     std::vector<std::string> names = variables;
     names.push_back("pi");
-    for (const auto& [name, value] : constants)
-        names.push_back(name);
-    return joinWords(names, ", ") + " and functions";
+    for (const auto& constant : constants)
+        names.push_back(constant.name);
+    return names;
+}
+
+std::string allowedNames(const std::vector<std::string>& variables, const Constants& constants)
+{
+    return joinWords(knownNames(variables, constants), ", ") + " and functions";
 }
 
 /// The name the parser stopped at, if it is one.
@@ -104,11 +94,9 @@ std::string complaint(const mu::ParserError& error, const std::string& text, con
     const int position = int(error.GetPos());
     if (const auto name = nameAt(text, position); error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !name.empty())
     {
-        std::vector<std::string> known = functionNames();
-        known.insert(known.end(), variables.begin(), variables.end());
-        for (const auto& [constant, value] : constants)
-            known.push_back(constant);
-        known.push_back("pi");
+        std::vector<std::string> known = knownNames(variables, constants);
+        const auto functions = functionNames();
+        known.insert(known.end(), functions.begin(), functions.end());
         const std::string near = nearestWord(name, known);
         return fmt::format(", wrong at '{}', an unknown name{}; allowed {}, other names in constants {{ }}", name,
                            near.empty() ? "" : " (did you mean '" + near + "'?)", allowedNames(variables, constants));
@@ -120,16 +108,81 @@ std::string complaint(const mu::ParserError& error, const std::string& text, con
 }
 } // namespace
 
+/// What an expression is made of: constants that are formulas, then itself, each with the variables and the ones before it.
 struct Expression::Formula
 {
     std::string text;
     Location where;
     std::optional<double> number;
     std::vector<std::string> variables, used;
-    Constants constants;
+    Constants constants; ///< numbers and, of formulas, those that are used
 
+    /// Parsers of all formulas and the values they read. Each serves one thread at a time.
+    struct Engine
+    {
+        std::vector<double> values; ///< of the variables, then of constants that are formulas
+        std::vector<mu::Parser> parsers;
+
+        double evaluate()
+        {
+            const std::size_t first = values.size() - (parsers.size() - 1);
+            for (std::size_t k = 0; k + 1 < parsers.size(); ++k)
+                values[first + k] = parsers[k].Eval();
+            return parsers.back().Eval();
+        }
+    };
     mutable std::mutex mutex;
     mutable std::vector<std::unique_ptr<Engine>> idle;
+
+    std::unique_ptr<Engine> makeEngine() const
+    {
+        auto engine = std::make_unique<Engine>();
+        engine->values.assign(variables.size() + constants.size(), 0.0);
+        std::size_t known = variables.size();
+        mu::Parser parser;
+        parser.ClearConst();
+        parser.DefineConst("pi", std::numbers::pi);
+        for (std::size_t k = 0; k < variables.size(); ++k)
+            parser.DefineVar(variables[k], &engine->values[k]);
+        for (const auto& constant : constants)
+            if (const auto value = numberIn(constant.formula.text))
+                parser.DefineConst(constant.name, *value);
+            else
+            {
+                parser.SetExpr(constant.formula.text);
+                engine->parsers.push_back(parser);
+                parser.DefineVar(constant.name, &engine->values[known++]);
+            }
+        engine->values.resize(known); // shrinks in place
+        parser.SetExpr(text);
+        engine->parsers.push_back(parser);
+        return engine;
+    }
+
+    /// Leaves out constants nobody uses; notes the variables that are.
+    void prune(Engine& engine)
+    {
+        std::vector<std::string> names;
+        const auto note = [&names](mu::Parser& parser) {
+            for (const auto& [name, address] : parser.GetUsedVar())
+                names.push_back(name);
+        };
+        const auto wanted = [&names](const std::string& name) {
+            return std::find(names.begin(), names.end(), name) != names.end();
+        };
+        note(engine.parsers.back());
+        std::size_t parser = engine.parsers.size() - 1;
+        for (std::size_t k = constants.size(); k-- > 0;)
+            if (!numberIn(constants[k].formula.text))
+            {
+                --parser;
+                if (wanted(constants[k].name))
+                    note(engine.parsers[parser]);
+                else
+                    constants.erase(constants.begin() + std::ptrdiff_t(k));
+            }
+        std::copy_if(variables.begin(), variables.end(), std::back_inserter(used), wanted);
+    }
 
     std::unique_ptr<Engine> take() const
     {
@@ -142,7 +195,7 @@ struct Expression::Formula
                 return engine;
             }
         }
-        return makeEngine(text, variables, constants);
+        return makeEngine();
     }
     void giveBack(std::unique_ptr<Engine> engine) const
     {
@@ -150,6 +203,8 @@ struct Expression::Formula
         idle.push_back(std::move(engine));
     }
 };
+
+Constant::Constant(std::string n, double value) : name(std::move(n)), formula{fmt::format("{}", value), {}} {}
 
 Constants readConstants(const Dictionary& d, const std::vector<std::string>& variables)
 {
@@ -160,13 +215,14 @@ Constants readConstants(const Dictionary& d, const std::vector<std::string>& var
     const auto functions = functionNames();
     for (const auto& word : own->words())
     {
-        const double value = own->get<double>({word, "a constant"});
+        const auto formula = own->get<FormulaText>({word, "a constant"});
         if (!isName(word))
             own->fail(word, quoted(word), "a name of letters, digits and _");
         if (word == "pi" || std::find(variables.begin(), variables.end(), word) != variables.end() ||
             std::find(functions.begin(), functions.end(), word) != functions.end())
             own->fail(word, "a name that means something in formulas", "another name");
-        constants[word] = value;
+        Expression(formula, "constants." + word, variables, constants); // throws what is wrong with it
+        constants.emplace_back(word, formula);
     }
     return constants;
 }
@@ -189,31 +245,26 @@ Expression::Expression(const FormulaText& given, const std::string& word, const 
     formula->where = given.where;
     formula->variables = variables;
     formula->constants = constants;
-    double number = 0;
-    const char* const end = given.text.data() + given.text.size();
-    if (const auto read = std::from_chars(given.text.data(), end, number); read.ec == std::errc() && read.ptr == end &&
-                                                                           std::isfinite(number))
-        formula->number = number;
-    else if (given.text.size() > longest)
-        fail(fmt::format(", {} characters; allowed are {}", given.text.size(), longest));
-    else if (assigns(given.text))
-        fail(" with '=', allowed is a formula: it has a value and assigns none (== compares)");
-    else
-        try
-        {
-            auto engine = formula->take();
-            engine->parser.Eval();
-            if (engine->parser.GetNumResults() != 1)
-                fail(fmt::format(", {} values separated by ','; allowed is one", engine->parser.GetNumResults()));
-            for (const auto& [name, address] : engine->parser.GetUsedVar())
-                formula->used.push_back(name);
-            formula->giveBack(std::move(engine));
-        }
-        catch (const mu::ParserError& error)
-        {
-            fail(complaint(error, given.text, variables, constants));
-        }
+    formula->number = numberIn(given.text);
     formula_ = formula;
+    if (formula->number)
+        return;
+    if (given.text.size() > longest)
+        fail(fmt::format(", {} characters; allowed are {}", given.text.size(), longest));
+    if (assigns(given.text))
+        fail(" with '=', allowed is a formula: it has a value and assigns none (== compares)");
+    try
+    {
+        const auto engine = formula->makeEngine();
+        engine->evaluate();
+        if (const int results = engine->parsers.back().GetNumResults(); results != 1)
+            fail(fmt::format(", {} values separated by ','; allowed is one", results));
+        formula->prune(*engine);
+    }
+    catch (const mu::ParserError& error)
+    {
+        fail(complaint(error, given.text, variables, constants));
+    }
 }
 
 std::optional<double> Expression::number() const
@@ -252,7 +303,7 @@ Index Expression::evaluate(const std::vector<const double*>& variables, Index co
                 engine->values[k] = variables[k][i];
         try
         {
-            out[i] = engine->parser.Eval();
+            out[i] = engine->evaluate();
         }
         catch (const mu::ParserError&) // an argument a function cannot take
         {

@@ -26,6 +26,7 @@ void append(SmoothedStress& out, const std::vector<const double*>& columns, std:
                 nodal[node][c] += share * own[c];
         });
     }
+    table.joinImages(nodal);
     for (std::size_t c = 0; c < width; ++c)
     {
         auto& values = out.nodal.emplace_back();
@@ -66,6 +67,7 @@ SmoothedStress smoothColumns(const std::vector<const double*>& columns, const st
     std::vector<double> mass(std::size_t(table.nodes()), 0.0);
     for (Index i = 0; i < p.size(); ++i)
         table.visitNodes(i, [&](std::size_t node, double weight) { mass[node] += p.mass[std::size_t(i)] * weight; });
+    table.joinImages(mass);
     SmoothedStress out;
     for (std::size_t node = 0; node < mass.size(); ++node)
         if (mass[node] > 0)

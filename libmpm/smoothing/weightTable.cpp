@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
 
 namespace mpm::smoothing
 {
@@ -59,6 +60,20 @@ class NodeKeys
             out = out * count_[std::size_t(a)] + node[std::size_t(a)] - first_[std::size_t(a)];
         return out;
     }
+    /// The same node for all images of it; `key` itself where no axis is periodic.
+    Index original(Index key) const
+    {
+        std::array<Index, 3> node{};
+        for (std::size_t a = 0; a < std::size_t(dim); ++a)
+        {
+            node[a] = first_[a] + key % count_[a];
+            key /= count_[a];
+            if (grid_.periodic[a])
+                node[a] -= grid_.cells[a] * Index(std::floor(double(node[a]) / double(grid_.cells[a])));
+        }
+        return (node[2] * (Index(1) << 20) + node[1]) * (Index(1) << 20) + node[0];
+    }
+    bool periodic() const { return grid_.periodic[0] || grid_.periodic[1] || grid_.periodic[2]; }
     Vector3 position(Index key) const
     {
         Vector3 x{};
@@ -134,6 +149,14 @@ void numberNodes(const NodeKeys<dim, Shape>& keys, const std::vector<Index>& cor
     table.position.reserve(nodes.size());
     for (const Index key : nodes)
         table.position.push_back(keys.position(key));
+    if (!keys.periodic())
+        return;
+    std::map<Index, std::vector<Index>> images;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        images[keys.original(nodes[n])].push_back(Index(n));
+    for (auto& [node, group] : images)
+        if (group.size() > 1)
+            table.images.push_back(std::move(group));
 }
 
 template <int dim, class Shape>
@@ -195,7 +218,7 @@ WeightTable fillBy(const state::State& state, const std::string& shape)
 
 const std::vector<std::string>& shapeNames()
 {
-    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "quadraticBSpline", "cubicBSpline"};
+    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "CPDI", "quadraticBSpline", "cubicBSpline"};
     return names;
 }
 

@@ -18,9 +18,25 @@ struct WeightTable
     std::vector<Index> rows;        ///< nodesPerAxis^(dim - 1) a support: the first node of each of its rows along x
     std::vector<double> weight;     ///< dim nodesPerAxis a particle: weights along x, then y, then z
     std::vector<Vector3> position;  ///< of the nodes [m]
+    /// Nodes that are one across a periodic side, in groups of two and more.
+    std::vector<std::vector<Index>> images;
 
     Index particles() const { return Index(cell.size()); }
     Index nodes() const { return Index(position.size()); }
+
+    /// Sums over particles at nodes: those of one node with several images are added.
+    template <class Value>
+    void joinImages(std::vector<Value>& sums) const
+    {
+        for (const auto& group : images)
+        {
+            Value total = sums[std::size_t(group.front())];
+            for (std::size_t k = 1; k < group.size(); ++k)
+                add(total, sums[std::size_t(group[k])]);
+            for (const Index node : group)
+                sums[std::size_t(node)] = total;
+        }
+    }
 
     /// Calls visit(node, weight) for the nodes of particle p, x fastest; zero weights are left out.
     template <class Visitor>
@@ -35,6 +51,13 @@ struct WeightTable
     }
 
   private:
+    static void add(double& to, double value) { to += value; }
+    template <std::size_t width>
+    static void add(std::array<double, width>& to, const std::array<double, width>& values)
+    {
+        for (std::size_t c = 0; c < width; ++c)
+            to[c] += values[c];
+    }
     template <int n, class Visitor>
     void visitRows(Index p, Visitor& visit) const
     {
@@ -54,7 +77,7 @@ struct WeightTable
     }
 };
 
-/// Words of the shapes: linear, uGIMP, cpGIMP.
+/// Words of the shapes, those of mpmSchemes. Smoothing with CPDI takes the boxes of cpGIMP around its domains.
 const std::vector<std::string>& shapeNames();
 
 WeightTable weightTable(const state::State& state, const std::string& shape);

@@ -10,12 +10,13 @@ namespace mpm::stepping
 {
 /// sigma : dEps in every lane.
 template <int dim>
-void workOfStrain(const constitutive::Chunk<dim>& chunk, double (&density)[lanes])
+void workOfStrain(const constitutive::StressLanes<dim>& stress, const constitutive::StressLanes<dim>& dStrain,
+                  double (&density)[lanes])
 {
     std::fill_n(density, lanes, 0.0);
     for (int k = 0; k < stressSize<dim>; ++k)
         for (int l = 0; l < lanes; ++l)
-            density[l] += (k < 3 ? 1 : 2) * chunk.stress[k][l] * chunk.dStrain[k][l];
+            density[l] += (k < 3 ? 1 : 2) * stress[k][l] * dStrain[k][l];
 }
 
 /// Elastic energy density 1/2 sigma : C^-1 : sigma = p^2/(2 K) + s : s/(4 G) in every lane, from 1/(2 K) and 1/(4 G).
@@ -75,12 +76,20 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
         transfer::loadLanes(p.F[k].data() + first, count, ws.F[k]);
     for (int k = 0; k < stressSize<dim>; ++k)
         transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
+    // What the grid's forces do work on is L as it is; what the law sees is L over the mid-step configuration.
+    alignas(64) double workOfForces[lanes], workOfForcesAfter[lanes];
+    constitutive::StressLanes<dim> strainOfForces;
+    constitutive::strainIncrement(ws.L, dt, strainOfForces);
+    workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
+    constitutive::toMidStep(scene_.stressUpdate == StressUpdate::USF ? constitutive::TakenOver::end
+                                                                     : constitutive::TakenOver::start,
+                            dt, ws.L);
     constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
     transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
     loadModuli(ws, first, count);
     alignas(64) double energyBefore[lanes], energy[lanes], work[lanes], workTurned[lanes], workAfter[lanes];
-    workOfStrain(chunk, work);
-    sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, work);
+    workOfStrain<dim>(chunk.stress, chunk.dStrain, work);
+    sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
     if (anyHyperelastic_)
@@ -90,7 +99,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     constitutive::determinant(ws.F, ws.J);
     constitutive::rotateStress(ws.L, dt, chunk.stress);
     ws.ahead.some(5);
-    workOfStrain(chunk, workTurned);
+    workOfStrain<dim>(chunk.stress, chunk.dStrain, workTurned);
     chunk.F = &ws.F;
     callLaws(first, count, chunk);
     ws.ahead.some(5);
@@ -125,8 +134,9 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
                     stiffJ[l] = own[l];
         });
     sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
-    workOfStrain(chunk, workAfter);
-    sums.strainWork += transfer::sumOfProducts(ws.volume, workAfter);
+    workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
+    workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
+    sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
     if (anyHyperelastic_)
     {
@@ -142,7 +152,9 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     {
         const double grown = ws.volume[l] - ws.volumeBefore[l];
         energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown + 0.25 * grown * (workTurned[l] - workAfter[l]) +
-                          0.5 * ws.volumeBefore[l] * (workTurned[l] - work[l]);
+                          0.5 * ws.volumeBefore[l] * (workTurned[l] - work[l]) +
+                          0.5 * (ws.volumeBefore[l] * (work[l] - workOfForces[l]) +
+                                 ws.volume[l] * (workAfter[l] - workOfForcesAfter[l]));
         workTurned[l] = ws.volumeBefore[l];
         ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
@@ -151,7 +163,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
             for (int l = 0; l < lanes; ++l)
                 if (mine(l))
                     energyBefore[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                                      0.5 * (workTurned[l] * work[l] + ws.volume[l] * workAfter[l]);
+                                      0.5 * (workTurned[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
         });
     sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
     sums.plasticWork += transfer::sumOfProducts(ws.volumeBefore, chunk.plasticWork);

@@ -10,7 +10,7 @@
 //     transfer   XPIC;      // mpmSchemes; or FMPM
 //     order      2;         // k >= 1
 //
-// Cost: k - 1 rounds of a gather and a projection a step. Verified in tests/unit/velocityFilter.cpp.
+// Cost: k - 1 rounds of a gather and a projection a step. Verified in tests/unit/transferSchemes.cpp.
 #pragma once
 #include "base/clock.hpp"
 #include "stepping/explicitStepper.hpp"

@@ -12,7 +12,7 @@
 ///
 ///     transfer   APIC;      // mpmSchemes; or TPIC
 ///
-/// Verified in tests/unit/affine.cpp.
+/// Verified in tests/unit/cornerWeights.cpp and transferSchemes.cpp.
 #include "transfer/chunkWeights.hpp"
 
 #include <Eigen/Dense>

@@ -8,6 +8,7 @@
 
 using namespace mpm;
 using namespace mpm::dictionary;
+using namespace std::string_literals;
 
 namespace
 {
@@ -128,7 +129,27 @@ TEST_CASE("vectors of formulas in a dictionary, with constants")
     CHECK(messageOfDictionary("value (0 0); constants { sin 1; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { pi 3; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { a-b 3; }").find("a name of letters") != std::string::npos);
-    CHECK(messageOfDictionary("value (0 0); constants { A two; }").find("allowed a number") != std::string::npos);
+    CHECK(messageOfDictionary("value (0 0); constants { A two; }").find("1: constants.A: found '\"two\"', wrong at 'two', "
+                                                                          "an unknown name") != std::string::npos);
+}
+
+TEST_CASE("constants may be formulas of the variables and of those before them")
+{
+    const auto d = Dictionary::fromText("value (\"b*X/R\" \"b*Y/R\" 0);\nconstants { A 0.05; R \"sqrt(X^2 + Y^2)\"; late "
+                                        "\"A*t\"; s \"A*sin(pi*x)\"; b \"-s*R\"; }");
+    const auto constants = readConstants(d, variables);
+    const auto v = readVectorExpression(d, "value", "", unit::acceleration, 2, variables, constants, true);
+    const double s = 0.05 * std::sin(std::numbers::pi * 2), R = std::sqrt(0.25 * 0.25 + 0.5 * 0.5);
+    CHECK(v[0].evaluate({2, 3, 0.25, 0.5, 0.1}) == -s * R * 0.25 / R);
+    CHECK(v[1].evaluate({2, 3, 0.25, 0.5, 0.1}) == -s * R * 0.5 / R);
+    CHECK(v[0].uses("x"));
+    CHECK(v[0].uses("Y")); // in R
+    CHECK_FALSE(v[0].uses("t")); // only `late` does
+    CHECK_FALSE(v[0].uses("y"));
+    CHECK(messageOfDictionary("value (\"B\" 0);\nconstants { A \"B + 1\";\nB 2; }").substr(0, 60) ==
+          "constant/bodyForce:2: constants.A: found '\"B + 1\"', wrong at 'B', an unknown name"s.substr(0, 60));
+    CHECK(messageOfDictionary("value (\"A\" 0); constants { A \"t +\"; }").find("constants.A: found '\"t +\"', wrong at its "
+                                                                                "end") != std::string::npos);
 }
 
 TEST_CASE("the first value that is not finite is named, and threads get the same bits")

@@ -128,6 +128,80 @@ TEST_CASE("ten turns keep the volume")
     CHECK(std::abs(volumeAfterTurns<3>() - 1) < 1e-11);
 }
 
+/// dt L = T - I (over the start) or I - T^-1 (over the end) for the step's deformation T: both ends give the same middle.
+template <int dim>
+void checkMidStep()
+{
+    const double dt = 0.3;
+    alignas(64) TensorLanes<dim> T, fromStart, fromEnd;
+    fill<dim>(T, 0.2, 7, true);
+    const Matrix<dim> I = Matrix<dim>::Identity();
+    for (int l = 0; l < lanes; ++l)
+    {
+        const Matrix<dim> start = (lane<dim>(T, l) - I) / dt, end = (I - lane<dim>(T, l).inverse()) / dt;
+        for (int k = 0; k < dim * dim; ++k)
+        {
+            fromStart[k][l] = start(k / dim, k % dim);
+            fromEnd[k][l] = end(k / dim, k % dim);
+        }
+    }
+    constitutive::toMidStep(constitutive::TakenOver::start, dt, fromStart);
+    constitutive::toMidStep(constitutive::TakenOver::end, dt, fromEnd);
+    for (int l = 0; l < lanes; ++l)
+    {
+        const Matrix<dim> step = lane<dim>(T, l), middle = 2 * (step - I) * (step + I).inverse() / dt;
+        CHECK((lane<dim>(fromStart, l) - middle).norm() < 1e-12);
+        CHECK((lane<dim>(fromEnd, l) - middle).norm() < 1e-12);
+    }
+}
+
+/// A turn about (1, 2, 3) (in the plane: about z) by 0.3 a step is no strain, and turns stress by exactly that.
+template <int dim>
+void checkTurn()
+{
+    Matrix<dim> Q;
+    if constexpr (dim == 2)
+        Q << std::cos(0.3), -std::sin(0.3), std::sin(0.3), std::cos(0.3);
+    else
+        Q = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    alignas(64) TensorLanes<dim> L;
+    alignas(64) constitutive::StressLanes<dim> strain, stress{};
+    for (int l = 0; l < lanes; ++l)
+    {
+        for (int k = 0; k < dim * dim; ++k)
+            L[k][l] = (Q(k / dim, k % dim) - (k % (dim + 1) == 0)) / 0.01;
+        stress[0][l] = 1;
+    }
+    constitutive::toMidStep(constitutive::TakenOver::start, 0.01, L);
+    constitutive::strainIncrement(L, 0.01, strain);
+    constitutive::rotateStress(L, 0.01, stress);
+    for (int k = 0; k < stressSize<dim>; ++k)
+        CHECK(strain[k][3] == Approx(0).margin(1e-14));
+    const Matrix<dim> turned = Q.col(0) * Q.col(0).transpose();
+    CHECK(stress[0][3] == Approx(turned(0, 0)).margin(1e-14));
+    CHECK(stress[1][3] == Approx(turned(1, 1)).margin(1e-14));
+    CHECK(stress[3][3] == Approx(turned(0, 1)).margin(1e-14));
+}
+
+TEST_CASE("the gradient over mid-step is the same from both ends, and a turn is no strain")
+{
+    checkMidStep<2>();
+    checkMidStep<3>();
+    checkTurn<2>();
+    checkTurn<3>();
+}
+
+TEST_CASE("a step that deforms by half or more keeps its gradient")
+{
+    alignas(64) TensorLanes<2> flat{};
+    alignas(64) TensorLanes<3> solid{};
+    flat[0][5] = solid[0][5] = -3;
+    constitutive::toMidStep(constitutive::TakenOver::start, 1, flat);
+    constitutive::toMidStep(constitutive::TakenOver::start, 1, solid);
+    CHECK(flat[0][5] == -3);
+    CHECK(solid[0][5] == -3);
+}
+
 TEST_CASE("stress turns by the Hughes-Winget rotation")
 {
     alignas(64) TensorLanes<3> L;
