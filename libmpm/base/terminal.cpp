@@ -110,6 +110,8 @@ double Progress::fraction(double now) const
 
 double Progress::timeLeft(double fraction) const
 {
+    if (inPieces_)
+        return fraction > 0 ? elapsed() * (1 - fraction) / fraction : -1;
     return rate_ > 0 ? (1 - fraction) / rate_ : -1;
 }
 
@@ -150,7 +152,8 @@ void Progress::draw(double now, const std::string& details)
     const double done = fraction(now), left = timeLeft(done);
     const std::string times = fmt::format("{} elapsed{}", formatDuration(elapsed()),
                                           left < 0 || done >= 1 ? "" : ", " + formatDuration(left) + " left");
-    const std::string state = fmt::format("time {:.6g} s{}{}  {}", now, details.empty() ? "" : "  ", details, times);
+    const std::string value = inPieces_ ? "" : fmt::format("time {:.6g} s{}", now, details.empty() ? "" : "  ");
+    const std::string state = fmt::format("{}{}  {}", value, details, times);
     std::ostream& out = *surroundings_.out;
     if (surroundings_.terminal)
     {

@@ -46,6 +46,9 @@ class Progress
     void update(double now, const std::string& details = "");
     /// Is a line due? Lets the caller skip making the details.
     bool due(double now) const;
+    /// For work that is done in large pieces and measured in no unit of its own: no value of it is shown, and the time left
+    /// comes from the mean rate.
+    void inPieces() { inPieces_ = true; }
     /// A line of text that stays, above the progress line.
     void note(const std::string& text);
     /// On a terminal removes the line. Nothing is written afterwards.
@@ -68,7 +71,7 @@ class Progress
     double lastMeasured_ = 0, lastFraction_ = 0, rate_ = 0;
     int lastTenth_ = 0;
     std::size_t lineLength_ = 0;
-    bool finished_ = false;
+    bool finished_ = false, inPieces_ = false;
 };
 
 /// Aligned columns: texts to the left, numbers to the right.

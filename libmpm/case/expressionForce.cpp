@@ -1,5 +1,6 @@
 #include "case/expressionForce.hpp"
 
+#include "base/processorClock.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ ExpressionForce::ExpressionForce(dictionary::VectorExpression value, int dim) : 
 void ExpressionForce::acceleration(const state::Particles& p, Index first, int count, double time,
                                    double (&b)[3][lanes]) const
 {
+    const double begin = threadProcessorNow();
     alignas(64) double t[lanes];
     std::fill_n(t, lanes, time);
     std::vector<const double*> at;
@@ -47,6 +49,7 @@ void ExpressionForce::acceleration(const state::Particles& p, Index first, int c
                                     place, time, b[a][bad], value_[a].where().text(), value_[a].text()));
         std::fill_n(b[a], lanes, 0.0);
     }
+    seconds_ += threadProcessorNow() - begin;
 }
 
 std::string ExpressionForce::takeFault() const

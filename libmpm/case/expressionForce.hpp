@@ -13,6 +13,7 @@
 #include "dictionary/expression.hpp"
 #include "stepping/stepper.hpp"
 
+#include <atomic>
 #include <map>
 #include <mutex>
 
@@ -29,6 +30,8 @@ class ExpressionForce : public stepping::BodyForce
     void acceleration(const state::Particles& particles, Index first, int count, double time,
                       double (&b)[3][lanes]) const override;
     std::string takeFault() const override;
+    /// Processor time that evaluating took so far, of all threads [s].
+    double seconds() const { return seconds_; }
 
     /// The first component that uses X, Y or Z, or null.
     const dictionary::Expression* usesReference() const;
@@ -38,6 +41,7 @@ class ExpressionForce : public stepping::BodyForce
   private:
     dictionary::VectorExpression value_;
     int dim_;
+    mutable std::atomic<double> seconds_ = 0;
     mutable std::mutex mutex_;
     mutable std::map<std::int64_t, std::string> faults_; ///< by particle id
 };

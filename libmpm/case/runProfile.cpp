@@ -1,5 +1,6 @@
 #include "case/runProfile.hpp"
 
+#include "base/processorClock.hpp"
 #include "base/terminal.hpp"
 #include "output/csvSeries.hpp"
 #include "output/replaceFile.hpp"
@@ -20,6 +21,12 @@ void RunProfile::beginSteps(const stepping::PassTimes& passes)
 {
     start_ = elapsed() - timeStep - monitor - history - output -
              sum(passes); // the stability limit may have run passes already
+    processorStart_ = processorNow() - apartProcessor;
+}
+
+double RunProfile::processor() const
+{
+    return processorNow() - processorStart_ - apartProcessor;
 }
 
 double RunProfile::elapsed() const
@@ -47,6 +54,7 @@ std::vector<RunProfile::Row> RunProfile::rows(const stepping::PassTimes& p) cons
         other -= row.seconds;
     rows.push_back({"other", other});
     rows.push_back({"total", total});
+    rows.push_back({"processor", processor()});
     return rows;
 }
 
@@ -54,7 +62,7 @@ std::string RunProfile::text(const stepping::PassTimes& passes, int indent) cons
 {
     Table table({"pass", "seconds", "share [%]", "ns per particle and step"});
     const auto all = rows(passes);
-    const double total = all.back().seconds;
+    const double total = all[all.size() - 2].seconds;
     for (const Row& row : all)
         if (row.seconds != 0)
             table.row({row.pass, fmt::format("{:.3f}", row.seconds), fmt::format("{:.2f}", 100 * row.seconds / total),
@@ -65,7 +73,7 @@ std::string RunProfile::text(const stepping::PassTimes& passes, int indent) cons
 void RunProfile::write(const std::filesystem::path& file, const stepping::PassTimes& passes) const
 {
     const auto all = rows(passes);
-    const double total = all.back().seconds;
+    const double total = all[all.size() - 2].seconds;
     std::string text = "pass,seconds,share,nsPerParticleStep\n";
     for (const Row& row : all)
         text += fmt::format("{},{},{},{}\n", row.pass, output::shortest(row.seconds),

@@ -16,6 +16,8 @@
 ///     output        states and the index files of ParaView
 ///     other         all else: strain paths, progress
 ///     total         the sum
+///     processor     time of the processor from the first step on, all threads, without history, output and formulas of
+///                   body forces (a formula costs many times what a step does, whatever the method): no part of the sum
 ///
 /// nsPerParticleStep is a row's time over the sum, over all steps, of the particles there were. Covered by
 /// tests/cases/profile.py.
@@ -30,12 +32,15 @@ class RunProfile
 {
   public:
     double timeStep = 0, monitor = 0, history = 0, output = 0; ///< [s], filled by base/clock.hpp
+    double apartProcessor = 0; ///< processor time that does not count as the steps' own [s]
 
     /// Reading and checking are over.
     void beginSteps(const stepping::PassTimes& passes);
     /// A step of so many particles is done.
     void countStep(Index particles) { particleSteps_ += double(particles); }
     double elapsed() const; ///< since the profile was made [s]
+    /// Processor time of all threads since beginSteps(), without apartProcessor [s].
+    double processor() const;
     double nsPerParticleStep(double seconds) const { return particleSteps_ > 0 ? 1e9 * seconds / particleSteps_ : 0; }
 
     /// The rows as aligned text, those that took no time left out.
@@ -52,6 +57,6 @@ class RunProfile
     std::vector<Row> rows(const stepping::PassTimes& passes) const;
 
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    double start_ = 0, particleSteps_ = 0;
+    double start_ = 0, particleSteps_ = 0, processorStart_ = 0;
 };
 } // namespace mpm::cases

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/processorClock.hpp"
 #include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"
@@ -273,6 +274,7 @@ catch (const InputError& error)
 void SolverRun::writeRow()
 {
     const Clock clock(profile_.history);
+    const ProcessorClock processor(profile_.apartProcessor);
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
@@ -281,6 +283,7 @@ void SolverRun::writeRow()
 void SolverRun::writeState(bool outOfTurn)
 {
     const Clock clock(profile_.output);
+    const ProcessorClock processor(profile_.apartProcessor);
     finishWriting();
     writingName_ = written_->next(state_, outOfTurn);
     writtenStep_ = state_.step;

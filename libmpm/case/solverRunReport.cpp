@@ -1,6 +1,7 @@
 // What a run of the solver says before its first step and after its last.
 #include "base/clock.hpp"
 #include "base/memory.hpp"
+#include "base/processorClock.hpp"
 #include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
@@ -158,9 +159,12 @@ void SolverRun::summary()
 {
     {
         const Clock clock(profile_.output);
+        const ProcessorClock processor(profile_.apartProcessor);
         finishWriting();
     }
     progress_->finish();
+    if (const auto* force = dynamic_cast<const ExpressionForce*>(scene_.scene.bodyForce.get()))
+        profile_.apartProcessor += force->seconds();
     const auto t = stepping::totals(state_, scene_.scene.materials);
     const auto& l = state_.ledger;
     const double supplied = std::abs(l.gravityWork + l.tractionWork + l.bodyForceWork);

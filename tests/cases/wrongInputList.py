@@ -108,9 +108,15 @@ def solve(what, change):
     return Entry(what, "mpmSolve", change)
 
 
+def cost(what, text):
+    return Entry(what, "accuracyCost", None if text is None else write(COST, text + "\n"), seeded=False)
+
+
 GRID, SCHEMES, CONTROL, SEED = "system/gridDict", "system/mpmSchemes", "system/controlDict", "system/seedParticlesDict"
 SPLIT, CHECK = "system/splitParticlesDict", "system/checkIntegrationDict"
 MATERIAL, WALLS, GRAVITY = "constant/materialProperties", "constant/boundaryConditions", "constant/g"
+COLUMN, COST = "geometry/column.geo", "system/accuracyCostDict"
+MEASURE = " measures { runOut { history maxX; against finest; } }"
 FORCE = "constant/bodyForce"
 COLUMN = "geometry/column.geo"
 SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
@@ -299,6 +305,27 @@ GROUPS = [
         Entry("a mode of splitting that does not exist", "splitParticles -target refined",
               edit(SPLIT, "fourWay; ", "eightWay; ")),
         Entry("splitting in place without being told to", "splitParticles"),
+        cost("nothing to try accuracy on", None),
+        cost("an axis misspelt", "axes { stressupdate (USL MUSL); }" + MEASURE),
+        cost("a shape misspelt among others", "axes { shape (uGIMP cpGMIP); }" + MEASURE),
+        cost("a value twice on an axis", "axes { courant (0.2 0.4 0.2); }" + MEASURE),
+        cost("half a particle in a cell", "axes { particlesPerCell (2 2.5); }" + MEASURE),
+        cost("Courant number and time step at once", "axes { courant (0.2); deltaT (1e-3); }" + MEASURE),
+        cost("two methods that are one", "methods { a { shape linear; } b { shape linear; } }" + MEASURE),
+        cost("no measure of error", "axes { shape (uGIMP cpGIMP); }"),
+        cost("an empty list of measures", "measures { }"),
+        cost("a column of no history", "measures { runOut { history maxx; against finest; } }"),
+        cost("a measure of two things", "measures { both { history maxX; field stress; against finest; } }"),
+        cost("an exact solution nobody gave", "measures { way { field displacement; against exact; } }"),
+        cost("a stress of two components", "exact { stress (0 0); } measures { s { field stress; against exact; } }"),
+        cost("a formula with an unknown name", 'exact { velocity ("A*X" 0 0); } measures { v { field velocity; against exact; } }'),
+        cost("a profile without its component", "measures { p { profile stress; low (0 0 0); high (1 1 0); bins 4; against finest; } }"),
+        cost("boxes turned inside out",
+             "measures { p { profile stress; component yy; low (0 1 0); high (1 0 0); bins 4; against finest; } }"),
+        cost("a mean over no time", "measures { m { history maxX; take mean; against finest; } }"),
+        cost("all times of what is known at the end", "measures { m { field stress; over storedTimes; against finest; } }"),
+        Entry("an accuracy that is none", "accuracyCost -within 0", write(COST, MEASURE), seeded=False),
+        Entry("half a row at a time", "accuracyCost -threads 0.5", write(COST, MEASURE), seeded=False),
         Entry("steps that are none", "checkIntegration -law", edit(CHECK, "(1 2 4 8 16 32 64 128 256 512)", "(1 2 0)")),
         Entry("time steps that grow", "checkIntegration -time", edit(CHECK, "(0.4 0.2 0.1)", "(0.1 0.2)")),
         Entry("a scheme of time that does not exist", "checkIntegration -time",

@@ -1,0 +1,10 @@
+#pragma once
+/// Reading what a run gave from its files, for accuracyMeasure.hpp.
+#include "case/accuracyMeasure.hpp"
+
+namespace mpm::cases
+{
+Sample fieldSample(const Measure& measure, const CaseDirectory& run, const std::string& timeName);
+Sample historySample(const Measure& measure, const CaseDirectory& run);
+Sample profileSample(const Measure& measure, const CaseDirectory& run);
+} // namespace mpm::cases
