@@ -134,8 +134,10 @@ class Parts
         for (int l = 0; l < lanes; ++l)
         {
             const double turn = chunk_.L ? 2 * tangentOfHalf<dim>(*chunk_.L, chunk_.dt, l) : 0;
-            const bool straight = 0.5 * turn * distanceOf<dim>(turned, trial, l) <=
-                                  tolerance_ * std::max(normOf<dim>(chunk_.stress, l), scale_);
+            const double change = distanceOf<dim>(turned, trial, l),
+                         size = std::max(normOf<dim>(chunk_.stress, l), scale_);
+            const bool straight = 0.5 * turn * change <= tolerance_ * size;
+            small_[l] = change <= 0.5 * size;
             open_[l] = chunk_.region[l] != Region::elastic || !straight;
             any = any || (open_[l] && l < chunk_.count);
         }
@@ -158,7 +160,6 @@ class Parts
             for (int k = 0; k < stressSize<dim>; ++k)
                 for (int l = 0; l < lanes; ++l)
                     next[k][l] = 2 * part_.stress[k][l] - last[k][l];
-            copyStress<dim>(part_.stress, last);
             for (int l = 0; l < lanes; ++l)
             {
                 if (done[l])
@@ -167,9 +168,11 @@ class Parts
                     chunk_.stress[k][l] = next[k][l];
                 chunk_.apexStrain[l] = apex_[l];
                 chunk_.region[l] = part_.region[l];
-                done[l] =
-                    !first && distanceOf<dim>(next, estimate, l) <= tolerance_ * std::max(normOf<dim>(next, l), scale_);
+                const double allowed = tolerance_ * std::max(normOf<dim>(next, l), scale_);
+                done[l] = (small_[l] && distanceOf<dim>(part_.stress, last, l) <= allowed) ||
+                          (!first && distanceOf<dim>(next, estimate, l) <= allowed);
             }
+            copyStress<dim>(part_.stress, last);
             copyStress<dim>(next, estimate);
             first = false;
         }
@@ -202,7 +205,8 @@ class Parts
     alignas(64) Stress<dim> start_; ///< before the step's rotation
     alignas(64) TensorLanes<dim> turn_;
     alignas(64) double apex_[lanes];
-    bool open_[lanes]; ///< lanes that need parts
+    bool open_[lanes];  ///< lanes that need parts
+    bool small_[lanes]; ///< lanes whose elastic stress change is no more than half the stress
     int calls_ = 1;
 };
 } // namespace

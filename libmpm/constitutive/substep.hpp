@@ -12,11 +12,13 @@
 /// stress turned by all of dR, turns it back first (Chunk::L, Chunk::dt). Without L no part turns.
 ///
 /// n is doubled from 1 (the plain step) until two estimates of the stress agree: with s_n of n parts, first order, the
-/// extrapolated S_n = 2 s_2n - s_n is of second order; a lane is done when |S_2n - S_n| <= tolerance max(|S|, scale).
-/// S_2n is returned to the surface, which costs nothing in order. Lanes that are elastic in the whole step are done at
-/// once where phi/2 |C : dt D|, the error of turning before straining, is within the tolerance. Each lane takes its
-/// stress from its own last doubling, so results do not depend on what else is in the chunk. n stops at 2048: what is
-/// not done by then (an active set that changes at random) keeps the last estimate.
+/// extrapolated S_n = 2 s_2n - s_n is of second order; a lane is done when |S_2n - S_n|, or in a step whose
+/// elastic stress change is under half the stress |s_2n - s_n|, is at most tolerance max(|S|, scale). (In a huge step
+/// s_1 and s_2 may agree by chance.) That is the error of one step; errors of many steps add up. S_2n is returned to
+/// the surface, which costs nothing in order. Lanes that are elastic in the whole step are done at once where phi/2 |C
+/// : dt D|, the error of turning before straining, is within the tolerance. Each lane takes its stress from its own
+/// last doubling, so results do not depend on what else is in the chunk. n stops at 2048: what is not done by then (an
+/// active set that changes at random) keeps the last estimate.
 ///
 /// Plastic work is (start + end)/2 : C^-1 (trial - end) of the whole step, so that the energy budget closes as without
 /// sub-steps. apexStrain is summed over the parts of the last doubling.
