@@ -216,3 +216,26 @@ TEST_CASE("a scheme that fails is a row that says why")
     CHECK(table.rows()[0].cells[table.column("temporalError")].empty());
     CHECK(!table.rows()[0].cells[table.column("failure")].empty());
 }
+
+TEST_CASE("what checkIntegrationDict says of time")
+{
+    const Bar bar = makeBar("cubicBSpline", 0.05, 32);
+    const auto read = [&](const std::string& words) {
+        const auto dict = dictionary::Dictionary::fromText("time { " + words + " }", "checkIntegrationDict");
+        return cases::readTimeCheck(dict, bar.scene, bar.state);
+    };
+    const auto check = read("window 0.015; courant (0.4 0.2); schemes (MUSL RK4); "
+                            "exact { displacement (\"A*sin(pi*X)*sin(c*pi*t)\" 0); constants { A 0.05; c 100; } }");
+    CHECK(check.window == 0.015);
+    CHECK(check.schemes == std::vector<std::string>{"MUSL", "RK4"});
+    REQUIRE(check.deltaT.size() == 2);
+    CHECK(check.deltaT[1] == Approx(0.2 / 32 / c));
+    CHECK(check.exact({0.3, 0, 0}, 0.004)[0] == Approx(0.05 * std::sin(0.3 * M_PI) * std::sin(0.4 * M_PI)));
+    CHECK(read("window 1;").schemes.size() == 7); // all of them
+    using Catch::Matchers::Contains;
+    CHECK_THROWS_WITH(read("window 1; courant (0.1 0.2);"), Contains("falling"));
+    CHECK_THROWS_WITH(read("window 1; schemes (USL RK5);"), Contains("RK5") && Contains("staggeredUSL"));
+    CHECK_THROWS_WITH(read("window 1; scheme (USL);"), Contains("scheme"));
+    CHECK_THROWS_WITH(read("window 0;"), Contains("> 0"));
+    CHECK_THROWS_WITH(read("window 1; exact { displacement (\"A*X\" 0); }"), Contains("A"));
+}
