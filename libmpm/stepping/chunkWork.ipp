@@ -30,7 +30,7 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         ws.values.resize(std::size_t(grid_.largestWindow()));
         ws.gradients.resize(std::size_t(grid_.largestWindow()));
     }
-    if (pass.velocity)
+    if (pass.velocity || movesByStrainVelocity(pass))
         grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
     if ((filters() && pass.velocity) || pass.filter)
     {
@@ -89,6 +89,17 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 ws.momentum.build(ws.mass, pass.filter ? ws.filtered.v : ws.v);
                 projectMomentum(ws, w, tile, ws.x, first, count, pass.reproject);
             }
+            if (movesByStrainVelocity(pass))
+            {
+                gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch); // v* and w
+                for (int a = 0; a < dim; ++a)
+                {
+                    for (int l = 0; l < lanes; ++l)
+                        ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.a[a][l];
+                    transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
+                }
+                lap(ws, &PassTimes::toParticles);
+            }
             if (pass.strain)
             {
                 gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
@@ -103,7 +114,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     if (pass.then == Project::nothing)
         return;
 
-    if (pass.moves && !pass.velocity) // an earlier pass has left the new positions
+    if (pass.moves && !pass.velocity && !movesByStrainVelocity(pass)) // an earlier pass has left the new positions
         for (int a = 0; a < dim; ++a)
             transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
     const Vectors& x = pass.moves ? ws.xNew : ws.x;
