@@ -84,6 +84,15 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
                             : integration == "RK4" ? stepping::TimeIntegration::RK4
                                                    : stepping::TimeIntegration::symplecticEuler;
     readTransfer(d, scene);
+    scene.moveByStrainVelocity = d.choose("particleMotion", "what moves particles",
+                                          {{"gridVelocity", "v*, the velocity after forces and walls"},
+                                           {"strainVelocity", "w, the velocity MUSL strains them with"}},
+                                          "gridVelocity") == "strainVelocity";
+    if (scene.moveByStrainVelocity && (scene.stressUpdate != stepping::StressUpdate::MUSL ||
+                                       scene.transfer != stepping::Transfer::FLIP ||
+                                       scene.timeIntegration != stepping::TimeIntegration::symplecticEuler))
+        d.fail("particleMotion", "strainVelocity with " + stepping::methodText(scene),
+               "gridVelocity, or MUSL with FLIP: only there particles are strained with a velocity of their own");
     scene.staggeredStart =
         d.get<bool>({"staggeredStart", "on: the first kick is half a step", unit::none, {}, false});
     if (scene.staggeredStart && scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)

@@ -24,6 +24,7 @@ const std::vector<dictionary::Choice>& schemeCatalogue()
                                                               {"MUSL", "stress last, from a second projection"},
                                                               {"staggeredUSL", "USL, the first kick half a step"},
                                                               {"staggeredMUSL", "MUSL, the first kick half a step"},
+                                                              {"strainVelocityMUSL", "MUSL, particles moved by what strains them"},
                                                               {"RK2", "midpoint rule"},
                                                               {"RK4", "classical Runge-Kutta"}};
     return catalogue;
@@ -80,6 +81,8 @@ ExactDisplacement readExact(const Dictionary& d, const state::State& state)
 
 std::string whyNotScheme(const std::string& scheme, const SceneOfCase& scene)
 {
+    if (scheme == "strainVelocityMUSL" && scene.scene.transfer != stepping::Transfer::FLIP)
+        return "only the transfer FLIP moves particles by the velocity of their strains";
     return isRungeKutta(scheme) ? whyNotSmooth(scene.shape, scene.scene) : std::string();
 }
 
@@ -95,6 +98,7 @@ std::unique_ptr<stepping::Stepper> makeScheme(const std::string& scheme, const S
                                                  : stepping::StressUpdate::USF;
     own.timeIntegration = stepping::TimeIntegration::symplecticEuler;
     own.staggeredStart = scheme.starts_with("staggered");
+    own.moveByStrainVelocity = scheme.starts_with("strainVelocity");
     return makeStepper(scene.shape, state, own);
 }
 

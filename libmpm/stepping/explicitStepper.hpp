@@ -61,11 +61,10 @@ class ExplicitStepper : public Stepper
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
     };
 
-    /// MUSL with FLIP moves particles by the velocities it strains them with: were they moved by v*, the difference of the
-    /// two would leave positions and F one order apart (tests/verification/timeIntegration.cpp). Node lanes are (v*, w).
+    /// Node lanes are (v*, w) then.
     bool movesByStrainVelocity(const Pass& pass) const
     {
-        return pass.strain && pass.moves && !pass.velocity && scene_.transfer == Transfer::FLIP;
+        return scene_.moveByStrainVelocity && pass.strain && pass.moves;
     }
 
     /// Sums over one tile; added in the order of the tiles.

@@ -23,6 +23,8 @@ std::string methodText(const Scene& scene)
         text += fmt::format(" of order {}", scene.transferOrder);
     if (scene.picRate > 0)
         text += fmt::format(" with {:g} 1/s of PIC", scene.picRate);
+    if (scene.moveByStrainVelocity)
+        text += ", particles moved by strainVelocity";
     return text + (scene.staggeredStart ? ", staggered start" : "");
 }
 

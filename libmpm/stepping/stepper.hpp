@@ -74,6 +74,9 @@ struct Scene
     TimeIntegration timeIntegration = TimeIntegration::symplecticEuler;
     Transfer transfer = Transfer::FLIP;
     int transferOrder = 2;       ///< k of XPIC and FMPM; 1 is PIC
+    /// MUSL with FLIP: particles move by the velocities w they are strained with, dt sum N w. By v* (METHOD Eq. 5) the
+    /// difference of the two leaves positions and F an order apart: temporal errors of order 1, not 2.
+    bool moveByStrainVelocity = false;
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
     double picRate = 0;      ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20; ///< steps between sorts of the particles

@@ -82,6 +82,14 @@ std::vector<double> solve(semiDiscrete::SemiDiscrete& equations, const state::St
 
 constexpr int rowsPerScheme = 5; // c dt/h = 0.8, 0.4, 0.2, 0.1, 0.05
 
+/// Errors of MUSL in a 1D calculation of the same bar that takes the very steps of ExplicitStepper: particles move by
+/// v* and are strained by the second projection. The table's MUSL moves them by the second projection too, which makes
+/// it of order 2. The table's staggered start knows the velocities at dt/2; a first kick of half a step is none here,
+/// as no force acts at t = 0, so that staggered rows are those without.
+const std::map<double, std::vector<double>> muslIn1D = {
+    {1e-4, {7.4223e-08, 2.3077e-08, 8.0300e-09, 3.1378e-09, 1.3496e-09}},
+    {0.05, {4.3032e-05, 1.5155e-05, 6.1050e-06, 2.7117e-06, 1.2757e-06}}};
+
 /// The errors of the independent table.
 std::vector<double> tableErrors(const std::string& shape, double A, const std::string& scheme)
 {
@@ -147,13 +155,15 @@ TEST_CASE("the bar in cubic splines: temporal errors and orders, without and wit
 {
     for (const double A : {1e-4, 0.05})
     {
-        const auto s = study("cubicBSpline", A, {"USL", "MUSL", "staggeredMUSL", "RK2", "RK4"});
+        const auto s = study("cubicBSpline", A, {"USL", "MUSL", "strainVelocityMUSL", "staggeredMUSL", "RK2", "RK4"});
         CHECK(*s.result.spatial == Approx(A == 0.05 ? 3.4853e-5 : 8.0818e-9).epsilon(1e-4));
-        for (const std::string scheme : {"USL", "MUSL", "RK2", "RK4"})
+        for (const std::string scheme : {"USL", "RK2", "RK4"})
             meets(s, scheme, tableErrors("cubicBSpline", A, scheme));
-        // The table's staggered start knows the velocities at dt/2. A first kick of half a step is none here, as no force
-        // acts at t = 0: staggered rows are those without.
-        meets(s, "staggeredMUSL", tableErrors("cubicBSpline", A, "MUSL"));
+        for (const std::string scheme : {"MUSL", "staggeredMUSL"})
+            meets(s, scheme, muslIn1D.at(A));
+        meets(s, "strainVelocityMUSL", tableErrors("cubicBSpline", A, "MUSL"));
+        if (A == 1e-4)
+            CHECK(*s.rows.at("strainVelocityMUSL").back().order == Approx(2).margin(0.05));
         const auto& rk2 = s.rows.at("RK2");
         CHECK(*rk2.back().order == Approx(2).margin(A == 0.05 ? 0.05 : 0.3));
         CHECK(*s.rows.at("RK4")[1].order >= 3.8);
