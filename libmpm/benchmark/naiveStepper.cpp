@@ -253,6 +253,7 @@ class Naive : public NaiveStepper
         constitutive::advanceDeformation(L, dt, F);
         constitutive::determinant(F, J);
         constitutive::rotateStress(L, dt, chunk.stress);
+        constitutive::rotateStress(L, 0.5 * dt, chunk.dStrain);
         chunk.F = &F;
         scene_.materials[0].law->update(chunk);
         for (int l = 0; l < chunk.count; ++l)

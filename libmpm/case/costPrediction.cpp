@@ -15,8 +15,7 @@ namespace
 {
 constexpr double countedSteps = 2e7; ///< more are estimated: counting takes some 10 ns each
 
-/// A share of a median that is worth a word.
-constexpr double busy = 1.15;
+constexpr double busy = 1.15, tellingShare = 1.02; ///< ratios worth a word
 
 double median(std::vector<double> values)
 {
@@ -157,14 +156,39 @@ state::State firstParticles(const state::State& state, Index count)
 
 namespace
 {
-Seconds totalFor(const CostPrediction& p, double particles)
+/// All there is to do with so many particles, steps, and seconds a particle-step.
+Seconds totalFor(const CostPrediction& p, double particles, double steps, const Seconds& particleStep)
 {
     const double growth = particles / double(p.particles);
     Seconds total = p.rehearsal.start;
-    total += p.count.steps * particles * p.rehearsal.particleStep.median;
-    total += growth * p.count.rows * p.rehearsal.row;
+    total += steps * particles * particleStep;
+    total += growth * p.count.rows * (steps / std::max(1.0, p.count.steps)) * p.rehearsal.row;
     total += growth * p.count.states * p.rehearsal.state;
     return total;
+}
+
+Seconds leastFor(const CostPrediction& p, double particles)
+{
+    return totalFor(p, particles, p.count.steps, p.rehearsal.particleStep.median);
+}
+
+Seconds mostFor(const CostPrediction& p, double particles)
+{
+    const auto& r = p.rehearsal;
+    Seconds dearest = r.particleStep.median;
+    if (r.wideParticleStep)
+    {
+        dearest.cpu = std::max(dearest.cpu, r.wideParticleStep->median.cpu);
+        dearest.wall = std::max(dearest.wall, r.wideParticleStep->median.wall);
+    }
+    return totalFor(p, particles, std::max(p.count.steps, p.mostSteps.value_or(0)), dearest);
+}
+
+Seconds middleFor(const CostPrediction& p, double particles)
+{
+    Seconds sum = leastFor(p, particles);
+    sum += mostFor(p, particles);
+    return 0.5 * sum;
 }
 } // namespace
 
@@ -191,13 +215,16 @@ void describeState(CostPrediction& p, const state::State& state, const std::opti
 
 void addUp(CostPrediction& p)
 {
-    p.stepping = p.count.steps * double(p.particles) * p.rehearsal.particleStep.median;
+    const double particles = double(p.particles);
+    p.least = leastFor(p, particles);
+    p.most = mostFor(p, particles);
+    p.total = middleFor(p, particles);
     p.output = p.count.rows * p.rehearsal.row;
     p.output += p.count.states * p.rehearsal.state;
-    p.total = totalFor(p, double(p.particles));
+    p.stepping = p.total - p.rehearsal.start - p.output;
     for (auto* split : {&p.splitOnce, &p.splitCap})
         if (*split)
-            (*split)->total = totalFor(p, (*split)->particles);
+            (*split)->total = middleFor(p, (*split)->particles);
 }
 
 namespace
@@ -206,12 +233,14 @@ std::string spreadText(const Rehearsal& r)
 {
     const auto ns = [](double seconds) { return 1e9 * seconds; };
     const auto& s = r.particleStep;
-    return fmt::format("{:.1f} ns per particle and step ({:.1f} to {:.1f} in {} batches; {} steps in {})",
-                       ns(s.median.cpu), ns(s.least.cpu), ns(s.most.cpu), r.batches, r.steps,
-                       formatDuration(r.seconds));
+    std::string text = fmt::format("{:.1f} ns per particle and step ({:.1f} to {:.1f} in {} batches)", ns(s.median.cpu),
+                                   ns(s.least.cpu), ns(s.most.cpu), r.batches);
+    if (r.wideParticleStep)
+        text += fmt::format("; {:.1f} when domains are wider than a cell", ns(r.wideParticleStep->median.cpu));
+    return text;
 }
 
-/// "12 s", or both clocks where they differ.
+/// Both clocks.
 std::string secondsText(const Seconds& s)
 {
     return fmt::format("{} ({} of processor time)", formatDuration(s.wall), formatDuration(s.cpu));
@@ -223,13 +252,14 @@ std::string stepsText(const CostPrediction& p)
         return fmt::format("{} of {:g} s", whole(p.count.steps), p.deltaT);
     std::string text =
         fmt::format("about {}, estimated from the step allowed now, {:.4g} s", whole(p.count.steps), p.deltaT);
-    if (p.fallSteps && *p.fallSteps > 1.005 * p.count.steps)
-        text += fmt::format("; {} at the speed of a fall through the body's height", whole(*p.fallSteps));
+    if (p.mostSteps)
+        text += fmt::format("; {} at the speed of a fall through the body's height, loosened to twice its volume",
+                            whole(*p.mostSteps));
     return text;
 }
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> predictionLines(const CostPrediction& p)
+std::vector<std::pair<std::string, std::string>> predictionLines(const CostPrediction& p, int threads)
 {
     const auto& r = p.rehearsal;
     std::vector<std::pair<std::string, std::string>> lines;
@@ -262,9 +292,16 @@ std::vector<std::pair<std::string, std::string>> predictionLines(const CostPredi
     }
     else
         line("predicted", secondsText(p.total));
+    if (!p.splitOnce && p.most.cpu > tellingShare * p.least.cpu)
+        line("", fmt::format("the middle between {}, as the state is now, and {}, {}", formatDuration(p.least.wall),
+                             formatDuration(p.most.wall),
+                             !p.mostSteps          ? "all domains wider than a cell"
+                             : !r.wideParticleStep ? "with the larger number of steps"
+                                                   : "with the larger number of steps and wider domains"));
     line("", fmt::format("of it steps {}, tables and states {}, start {}", formatDuration(p.stepping.wall),
                          formatDuration(p.output.wall), formatDuration(r.start.wall)));
-    if (p.stepping.wall > busy * p.stepping.cpu)
+    line("rehearsed", fmt::format("{} steps in {}, thrown away", r.steps, formatDuration(r.seconds)));
+    if (threads == 1 && p.stepping.wall > busy * p.stepping.cpu)
         line("", "the machine is busy: alone on it, the processor time is what the run takes");
     return lines;
 }

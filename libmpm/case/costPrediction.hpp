@@ -10,10 +10,19 @@
 /// predicted run, between 0.2 s and 2 s, but never less than a handful of steps.
 ///
 /// Seconds are given twice: of the processor (all threads), and of the clock on the wall as busy as the machine was
-/// during the rehearsal. What they cannot know: how busy the machine will be, what a disk does that is slower than the
-/// steps, and how the body changes. Laws cost the same whether soil yields or not (they are computed without branches,
-/// substeps excepted), so the price of a particle-step moves with the nodes that are in use: each particle's share of
-/// them grows as a body spreads. In the shipped cases that is a few per cent.
+/// during the rehearsal.
+///
+/// The state at the start is not the state later. What a particle-step costs on the collapsing column (cells of 2/15 m,
+/// ns of processor time at the start and at its dearest): uGIMP 60 to 70, as fewer particles share a node and a tile;
+/// cpGIMP 65 to 95, because domains wider than a cell reach four nodes an axis in place of three, and one of 64
+/// neighbours is enough. Laws cost the same whether soil yields or not (they are computed without branches; substeps
+/// excepted). So where domains follow the stretch, wide ones are rehearsed too. Steps that adapt get smaller with speed
+/// and as soil loosens: they are counted as allowed now, and at the speed of a fall through the body's own height in
+/// soil of twice its volume. Both make a range, from `least` to `most`; the prediction is its middle. Spreading is not
+/// foreseen: a body that runs out far takes up to 15 % longer than predicted.
+///
+/// What cannot be known: how busy the machine will be, what a disk does that is slower than the steps, and which
+/// particles will split.
 ///
 /// Covered by tests/unit/costPrediction.cpp, tests/cases/prediction.py and, with ratios of predicted to real,
 /// tests/benchmark/predictionCheck.py.
@@ -66,8 +75,9 @@ Spread spreadOf(const std::vector<Seconds>& values);
 /// What was measured on the state at the start.
 struct Rehearsal
 {
-    Seconds start;       ///< reading and checking
-    Spread particleStep; ///< a step over the particles it was for
+    Seconds start;                          ///< reading and checking
+    Spread particleStep;                    ///< a step over the particles it was for
+    std::optional<Spread> wideParticleStep; ///< the same with domains wider than a cell, where the shape follows them
     Seconds row, state;
     double stateBytes = 0, rowBytes = 0; ///< of state.h5; of one row of all tables
     double stepBytes = 0;                ///< rows that are written every step (recordStrain)
@@ -81,12 +91,13 @@ struct Rehearsal
 struct CostPrediction
 {
     RunCount count;
-    std::optional<double> fallSteps; ///< adjustTimeStep: steps if all of it went as fast as in a free fall [-]
+    std::optional<double> mostSteps; ///< adjustTimeStep: steps of loosened soil at the speed of a fall
     double deltaT = 0;               ///< the step allowed now [s]
     Index particles = 0, cellsWithMaterial = 0;
     double particleBytes = 0; ///< columns of the state
     Rehearsal rehearsal;
-    Seconds total, stepping, output;
+    Seconds total, stepping, output; ///< the middle of the range
+    Seconds least, most;
     /// Splitting: particles and seconds if each particle is split once at the start, and at the cap.
     struct Split
     {
@@ -116,5 +127,5 @@ double fallSpeed(const state::State& state, const std::optional<Vector3>& gravit
 state::State firstParticles(const state::State& state, Index count);
 
 /// Lines (what, text) as -dry-run prints them.
-std::vector<std::pair<std::string, std::string>> predictionLines(const CostPrediction& prediction);
+std::vector<std::pair<std::string, std::string>> predictionLines(const CostPrediction& prediction, int threads);
 } // namespace mpm::cases

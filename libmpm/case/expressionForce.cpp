@@ -45,8 +45,8 @@ void ExpressionForce::acceleration(const state::Particles& p, Index first, int c
             place += fmt::format("{}{:g}", k ? ", " : "", p.x[std::size_t(k)][i]);
         const std::lock_guard lock(mutex_);
         faults_.emplace(p.id[i],
-                        fmt::format("the body force on particle {} at ({}), {:.9g} s is {}: {}: value: \"{}\"", p.id[i], place, time,
-                                    b[a][bad], value_[a].where().text(), value_[a].text()));
+                        fmt::format("the body force on particle {} at ({}), {:.9g} s is {}: {}: value: \"{}\"", p.id[i],
+                                    place, time, b[a][bad], value_[a].where().text(), value_[a].text()));
         std::fill_n(b[a], lanes, 0.0);
     }
     seconds_ += threadProcessorNow() - begin;
@@ -109,10 +109,11 @@ void provideReference(state::State& state, const ReferenceWanted& wanted)
     if (state.particles.hasX())
         return;
     if (state.step > 0)
-        throw InputError(wanted.where,
-                         fmt::format("{}: found a state at time {:.9g} s without /particles/referencePosition, where its "
-                                     "particles started; allowed: a run from time 0 (startFrom firstTime, -overwrite)",
-                                     wanted.what, state.time));
+        throw InputError(
+            wanted.where,
+            fmt::format("{}: found a state at time {:.9g} s without /particles/referencePosition, where its "
+                        "particles started; allowed: a run from time 0 (startFrom firstTime, -overwrite)",
+                        wanted.what, state.time));
     state.particles.enableX();
 }
 } // namespace mpm::cases

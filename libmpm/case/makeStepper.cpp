@@ -27,6 +27,11 @@ bool limitIgnoresMass(const std::string& shape)
     return shape != "linear";
 }
 
+bool widensWithStretch(const std::string& shape)
+{
+    return shape == "cpGIMP";
+}
+
 std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
                                                const stepping::Scene& scene)
 {

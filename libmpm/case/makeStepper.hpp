@@ -9,6 +9,8 @@ namespace mpm::cases
 const std::vector<dictionary::Choice>& shapeCatalogue();
 /// Does the stability limit stay as nodes empty? (All shapes but hat functions.)
 bool limitIgnoresMass(const std::string& shape);
+/// Do domains reach more nodes as particles stretch, so that a step gets dearer? (cpGIMP.)
+bool widensWithStretch(const std::string& shape);
 /// Throws InputError for a name that is not in the catalogue.
 std::unique_ptr<stepping::Stepper> makeStepper(const std::string& shape, state::State& state,
                                                const stepping::Scene& scene);

@@ -1,5 +1,6 @@
 #include "case/pickSetting.hpp"
 
+#include "base/csvTable.hpp"
 #include "base/error.hpp"
 #include "base/terminal.hpp"
 #include "base/version.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 
 namespace mpm::cases
 {
@@ -109,10 +109,10 @@ Overrides overridesFor(const AccuracyRow& row, const PresentCase& present, const
 
 std::filesystem::path accuracyTablePath(const CaseDirectory& folder)
 {
-    return folder.folder() / "postProcessing" / "accuracyCost.csv";
+    return (folder.folder() / "postProcessing" / "accuracyCost.csv").lexically_normal();
 }
 
-void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, const PresentCase& present)
+void requireSameCase(const ErrorTable& table, const CaseDirectory& folder, const PresentCase& present)
 {
     const auto refuse = [&](const std::string& found) {
         throw InputError(
@@ -123,7 +123,7 @@ void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, co
     {
         if (versionOf(row.version) != projectVersion())
             refuse(fmt::format("row {} of libmpm {}, this is {}", row.name, versionOf(row.version), projectVersion()));
-        if (std::abs(row.endTime - present.endTime) > 1e-9 * std::abs(present.endTime))
+        if (std::abs(row.endTime - present.endTime) > 2 * row.setting.deltaT) // a run ends within a step of endTime
             refuse(fmt::format("row {} of a run to {:g} s, endTime is {:g} s", row.name, row.endTime, present.endTime));
         if (row.setting.splitting && !present.setting.splitting)
             refuse(fmt::format("row {} with splitting, which system/mpmSchemes does not have", row.name));
@@ -147,7 +147,7 @@ Lines expectedErrorLines(const CaseDirectory& folder, const Options& options, co
             throw InputError("-errorMeasure: found no postProcessing/accuracyCost.csv; run accuracyCost first");
         return {};
     }
-    const AccuracyTable table(accuracyTablePath(folder), options.value("errorMeasure"));
+    const ErrorTable table(accuracyTablePath(folder), options.value("errorMeasure"));
     try
     {
         requireSameCase(table, folder, present);
@@ -224,12 +224,20 @@ class Picker
             c.predicted = Seconds{HUGE_VAL, HUGE_VAL};
             return;
         }
-        const double steps = c.row->setting.splitting ? c.row->particleSteps : p.count.steps * double(p.particles);
-        Seconds seconds = p.rehearsal.start, stepping = steps * p.rehearsal.particleStep.median;
+        const double particleSteps = double(p.particles) * p.count.steps;
+        const Seconds stepping = (c.row->setting.splitting ? c.row->particleSteps / particleSteps : 1.0) * p.stepping;
         factor_ = stepping.wall / c.row->cpuSeconds;
+        Seconds seconds = p.rehearsal.start;
         seconds += stepping;
         seconds += p.output;
         c.predicted = seconds;
+    }
+
+    /// "in about 12 s", where this machine's speed is known.
+    std::string timeText(const AccuracyRow& row) const
+    {
+        return factor_ ? "in about " + formatDuration(*factor_ * row.cpuSeconds)
+                       : fmt::format("in {} where the table was made", formatDuration(row.cpuSeconds));
     }
 
     /// What a row is likely to take, here.
@@ -300,9 +308,8 @@ class Picker
         const auto* row = betterElsewhere(pick);
         if (!row)
             return "";
-        return fmt::format("\n    another seeding does: {} {:.3g} in about {}, {}\n    it needs {}", table_.measure(),
-                           row->bound(), formatDuration(factor_.value_or(1) * row->cpuSeconds), rowText(*row),
-                           seedingLines(*row));
+        return fmt::format("\n    another seeding does: {} {:.3g} {}, {}\n    it needs {}", table_.measure(),
+                           row->bound(), timeText(*row), rowText(*row), seedingLines(*row));
     }
 
     [[noreturn]] void failSeeding() const
@@ -331,8 +338,8 @@ class Picker
                                                     : "stay as they are; this run takes " + best.overrides.describe());
         if (const auto* other = betterElsewhere(best.row))
         {
-            line("better still", fmt::format("{} {:.3g} in about {}: {}", table_.measure(), other->bound(),
-                                             formatDuration(factor_.value_or(1) * other->cpuSeconds), rowText(*other)));
+            line("better still",
+                 fmt::format("{} {:.3g} {}: {}", table_.measure(), other->bound(), timeText(*other), rowText(*other)));
             line("", "it needs " + seedingLines(*other));
         }
         fmt::print("\n");
@@ -340,7 +347,7 @@ class Picker
 
     const CaseDirectory& folder_;
     const Options& options_;
-    AccuracyTable table_;
+    ErrorTable table_;
     bool byTime_;
     double limit_;
     std::string reason_;

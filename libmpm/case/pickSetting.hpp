@@ -12,10 +12,10 @@
 ///
 /// Errors: both options; a number that is not > 0; a run that has begun; no table; a table of another case (endTime,
 /// constant/) or version; nothing that fits, with what comes nearest.
-#include "case/accuracyTable.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/costPrediction.hpp"
+#include "case/errorTable.hpp"
 #include "case/overrides.hpp"
 
 namespace mpm::cases
@@ -37,7 +37,7 @@ Overrides overridesFor(const AccuracyRow& row, const PresentCase& present, const
 /// Where accuracyCost leaves its table.
 std::filesystem::path accuracyTablePath(const CaseDirectory& folder);
 /// InputError unless the table is of this case and version.
-void requireSameCase(const AccuracyTable& table, const CaseDirectory& folder, const PresentCase& present);
+void requireSameCase(const ErrorTable& table, const CaseDirectory& folder, const PresentCase& present);
 
 /// Lines (what, text).
 using Lines = std::vector<std::pair<std::string, std::string>>;

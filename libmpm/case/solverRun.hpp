@@ -67,6 +67,7 @@ class SolverRun
     double allowedStep(const stepping::StabilityLimit& limit) const;
     double stepSize() const;
     bool rehearseStep(std::string& fault);
+    Spread rehearseBatches(Rehearsal& rehearsal, double guess, double allowed, bool beyond);
     void rehearseSteps(Rehearsal& rehearsal, double steps, double start);
     void rehearseOutput(Rehearsal& rehearsal);
     double nextStep();

@@ -1,8 +1,10 @@
 // How a run of the solver is rehearsed: its own steps on its own state, which is of no use afterwards. Nothing is
 // written; what would go into files goes into memory.
+#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "case/costPrediction.hpp"
+#include "case/makeStepper.hpp"
 #include "case/solverRun.hpp"
 #include "case/strainRecorder.hpp"
 #include "output/memoryFile.hpp"
@@ -16,6 +18,7 @@ namespace mpm::cases
 namespace
 {
 constexpr double leastSeconds = 0.2, mostSeconds = 2, share = 0.05; ///< of the rehearsal; of the run it predicts
+constexpr double widened = 1.5;                                     ///< [cells] domains that reach a fourth node
 constexpr Index leastSteps = 6, fewestBatches = 5, mostBatches = 400;
 constexpr Index wholeState = 100000; ///< particles above which a part of the state stands for it
 
@@ -63,50 +66,78 @@ bool SolverRun::rehearseStep(std::string& fault)
 }
 
 /// Batches of whole sort intervals; where not even a few of them fit, single steps, and the sort apart.
-void SolverRun::rehearseSteps(Rehearsal& r, double steps, double start)
+/// Batches of whole sort intervals for `allowed` seconds; where not even a few of them fit, single steps, and the sort
+/// apart. `guess`: wall seconds of a step. What lies beyond the end of the run is not rehearsed, unless `beyond` says
+/// so.
+Spread SolverRun::rehearseBatches(Rehearsal& r, double guess, double allowed, bool beyond)
 {
     const Index interval = scene_.scene.sortInterval;
-    const double particles = double(state_.particles.size());
-    std::vector<Seconds> batches, plain;
-    const Seconds begin = processSeconds();
-    const auto elapsed = [&] { return processSeconds().wall - begin.wall; };
-    const auto step = [&] { return rehearseStep(r.fault) && (++r.steps, true); };
-
-    // Warm-up: what the first step allocates and sorts, and on to the next sort if that takes no more than a batch.
-    Seconds first = secondsOf(step);
-    double guess = first.wall;
-    for (Index i = 1; r.fault.empty() && i < interval && elapsed() < 0.2 * leastSeconds; ++i)
-        guess = secondsOf(step).wall;
-    const double allowed = secondsAllowed({0, start + steps * guess});
-    if (double(fewestBatches * interval) * guess > allowed)
+    std::vector<Seconds> batches;
+    Seconds sorted;
+    const double begin = now();
+    const auto ready = [&] { return r.fault.empty() && (beyond || !done()); };
+    const auto step = [&] { return ready() && rehearseStep(r.fault) && (++r.steps, true); };
+    const auto wanted = [&](Index fewest) {
+        return ready() && Index(batches.size()) < mostBatches &&
+               (Index(batches.size()) < fewest || now() - begin < allowed);
+    };
+    const auto add = [&](Seconds seconds, Index steps) {
+        if (r.fault.empty() && steps > 0)
+            batches.push_back(1 / (double(steps) * double(state_.particles.size())) * seconds);
+    };
+    const bool whole = double(fewestBatches * interval) * guess <= allowed;
+    while (whole && wanted(fewestBatches))
     {
-        while (r.fault.empty() && (Index(plain.size()) < leastSteps || elapsed() < allowed))
-            if (const bool sorts = state_.step % interval == 0; sorts)
-                first = secondsOf(step);
-            else
-                plain.push_back(secondsOf(step));
-        if (!r.fault.empty() && !plain.empty())
-            plain.pop_back();
-        const Seconds usual = spreadOf(plain).median, more = first - usual;
-        for (auto& seconds : plain)
-            seconds += 1 / double(interval) * Seconds{std::max(0.0, more.cpu), std::max(0.0, more.wall)};
-        batches = std::move(plain);
+        Index taken = 0;
+        const Seconds seconds = secondsOf([&] {
+            while (taken < interval && step())
+                ++taken;
+        });
+        add(seconds, taken);
     }
-    else
-        while (r.fault.empty() && Index(batches.size()) < mostBatches &&
-               (Index(batches.size()) < fewestBatches || elapsed() < allowed))
-        {
-            const Seconds all = secondsOf([&] {
-                for (Index i = 0; i < interval && step(); ++i)
-                {}
-            });
-            if (r.fault.empty())
-                batches.push_back(1 / double(interval) * all);
-        }
+    while (!whole && wanted(leastSteps))
+        if (state_.step % interval == 0)
+            sorted = 1 / double(state_.particles.size()) * secondsOf(step);
+        else
+            add(secondsOf(step), 1);
+    const Seconds more = sorted - spreadOf(batches).median;
     for (auto& seconds : batches)
-        seconds = 1 / particles * seconds;
-    r.batches = Index(batches.size());
-    r.particleStep = spreadOf(batches);
+        seconds += (whole ? 0 : 1 / double(interval)) * Seconds{std::max(0.0, more.cpu), std::max(0.0, more.wall)};
+    r.batches += Index(batches.size());
+    return spreadOf(batches);
+}
+
+void SolverRun::rehearseSteps(Rehearsal& r, double steps, double start)
+{
+    const double begin = now();
+    // Warm-up: what the first step allocates and sorts, and on to the next sort if that takes no longer than a batch.
+    Seconds last;
+    const auto step = [&] { last = secondsOf([&] { r.steps += rehearseStep(r.fault); }); };
+    step();
+    for (Index i = 1; r.fault.empty() && !done() && i < scene_.scene.sortInterval && now() - begin < 0.2 * leastSeconds;
+         ++i)
+        step();
+    const bool widens = widensWithStretch(scene_.shape);
+    const double allowed = secondsAllowed({0, start + steps * last.wall}) / (widens ? 2 : 1);
+    r.particleStep = rehearseBatches(r, last.wall, allowed, false);
+    if (r.batches == 0 && r.fault.empty()) // the run is over with the warm-up
+    {
+        r.particleStep = spreadOf({1 / double(state_.particles.size()) * last});
+        r.batches = 1;
+    }
+    if (!widens || !r.fault.empty())
+        return;
+    // The same with domains wider than a cell along the first axis. What stress does with them does not matter here.
+    auto& p = state_.particles;
+    for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        p.length0[0][i] = state::Stored(widened * state_.grid.h / std::max(0.1, std::abs(double(p.F[0][i]))));
+    stepper_->particlesChanged();
+    Rehearsal wide;
+    rehearseStep(wide.fault);
+    const Spread spread = rehearseBatches(wide, last.wall, allowed, true);
+    r.steps += wide.steps;
+    if (wide.batches > 0)
+        r.wideParticleStep = spread;
 }
 
 void SolverRun::rehearseOutput(Rehearsal& r)
@@ -150,18 +181,20 @@ CostPrediction SolverRun::rehearse()
     Rehearsal& r = p.rehearsal;
     const Seconds begin = processSeconds();
     r.start = {begin.cpu, profile_.elapsed()};
-    const double now = allowedStep(limit_), first = state_.step == 0 ? std::min(now, runTime_->deltaT()) : now;
-    p.count = countRun(*runTime_, state_.time, state_.step, first, now);
+    const double allowed = allowedStep(limit_),
+                 first = state_.step == 0 ? std::min(allowed, runTime_->deltaT()) : allowed;
+    p.count = countRun(*runTime_, state_.time, state_.step, first, allowed);
     if (runTime_->adjustable())
     {
-        const auto falling = stepping::movedLimit(limit_, restWaveSpeed_, state_,
-                                                  limit_.speed + fallSpeed(state_, scene_.scene.gravity));
-        const double slow = allowedStep(falling);
-        p.fallSteps = countRun(*runTime_, state_.time, state_.step, std::min(first, slow), slow).steps;
+        const double loosened = std::sqrt(2.0); // of the wave speed, in twice the volume
+        const auto later = stepping::movedLimit(limit_, loosened * restWaveSpeed_, state_,
+                                                limit_.speed + fallSpeed(state_, scene_.scene.gravity));
+        const double slow = std::min(allowed, allowedStep(later));
+        p.mostSteps = countRun(*runTime_, state_.time, state_.step, std::min(first, slow), slow).steps;
     }
     if (state_.step == 0 && !done())
         ++p.count.rows; // of the state it starts from
-    p.deltaT = runTime_->nextStep(state_.time, now);
+    p.deltaT = runTime_->nextStep(state_.time, allowed);
     p.purge = double(runTime_->purgeWrite());
     describeState(p, state_, scene_.scene.splitting);
     r.peakBytes = peakMemory();
@@ -172,9 +205,13 @@ CostPrediction SolverRun::rehearse()
         recorder_->rehearse(strains.path());
     rehearseSteps(r, p.count.steps, r.start.wall);
     r.stepBytes = r.steps > 0 ? strains.bytes() / double(r.steps) : 0;
-    if (r.fault.empty())
-        rehearseOutput(r);
     r.peakBytes = peakMemory();
+    if (r.fault.empty())
+    {
+        rehearseOutput(r);
+        const double inMemory = std::min(r.stateBytes, r.stateBytes / double(p.particles) * double(wholeState));
+        r.peakBytes = std::max(r.peakBytes, peakMemory() - inMemory); // of the file, which the run has on a disk
+    }
     r.seconds = processSeconds().wall - begin.wall;
     addUp(p);
     return p;

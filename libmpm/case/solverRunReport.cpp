@@ -121,7 +121,7 @@ void SolverRun::banner() const
 
 void SolverRun::printPrediction(const CostPrediction& prediction) const
 {
-    for (const auto& [what, text] : predictionLines(prediction))
+    for (const auto& [what, text] : predictionLines(prediction, options_.threadCount()))
         line(what, text);
     for (const auto& [what, text] : expectedErrorLines(folder_, options_, presentCase()))
         line(what, text);

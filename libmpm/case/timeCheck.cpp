@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/terminal.hpp"
 #include "case/makeStepper.hpp"
+#include "dictionary/expression.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/timeStep.hpp"
 
@@ -54,6 +55,27 @@ std::vector<double> readFalling(const Dictionary& d, const dictionary::Entry<std
         d.fail(entry.word, "an empty list", "falling values");
     return values;
 }
+
+/// Displacements as functions of the reference position.
+ExactDisplacement readExact(const Dictionary& d, const state::State& state)
+{
+    if (!state.particles.hasX() && state.step > 0)
+        throw InputError(
+            d.where(), fmt::format("exact: found a state at t = {:g} s without reference positions, allowed is one at "
+                                   "the start, or a run with fields (referencePosition) in system/controlDict",
+                                   state.time));
+    const std::vector<std::string> variables = {"X", "Y", "Z", "t"};
+    const auto constants = dictionary::readConstants(d, variables);
+    const auto displacement =
+        dictionary::readVectorExpression(d, "displacement", "of the material point X Y Z at time t", unit::length,
+                                         state.particles.dim, variables, constants, true);
+    return [displacement](const Vector3& X, double time) {
+        Vector3 u{};
+        for (std::size_t a = 0; a < 3; ++a)
+            u[a] = displacement[a].evaluate({X[0], X[1], X[2], time});
+        return u;
+    };
+}
 } // namespace
 
 std::string whyNotScheme(const std::string& scheme, const SceneOfCase& scene)
@@ -71,6 +93,7 @@ std::unique_ptr<stepping::Stepper> makeScheme(const std::string& scheme, const S
     own.stressUpdate = scheme.ends_with("MUSL")  ? stepping::StressUpdate::MUSL
                        : scheme.ends_with("USL") ? stepping::StressUpdate::USL
                                                  : stepping::StressUpdate::USF;
+    own.timeIntegration = stepping::TimeIntegration::symplecticEuler;
     own.staggeredStart = scheme.starts_with("staggered");
     return makeStepper(scene.shape, state, own);
 }
@@ -93,6 +116,8 @@ TimeCheck readTimeCheck(const Dictionary& dict, const SceneOfCase& scene, const 
         if (whyNotScheme(name, scene).empty())
             possible.push_back(name);
     check.schemes = d.get<std::vector<std::string>>({"schemes", "to be run", unit::none, {}, possible});
+    if (const Dictionary* exact = d.findDict("exact", "the exact solution"))
+        check.exact = readExact(*exact, state);
     for (const auto& name : check.schemes)
     {
         const auto names = schemeNames();
@@ -101,6 +126,11 @@ TimeCheck readTimeCheck(const Dictionary& dict, const SceneOfCase& scene, const 
         if (const auto why = whyNotScheme(name, scene); !why.empty())
             d.fail("schemes", name + " (" + why + ")", joinWords(possible));
     }
+    dict.passOver("material", "for checkIntegration -law");
+    dict.passOver("steps", "for checkIntegration -law");
+    dict.passOver("paths", "for checkIntegration -law");
+    dict.passOver("recorded", "for checkIntegration -law");
+    dict.rejectUnread();
     return check;
 }
 
@@ -109,9 +139,9 @@ namespace
 /// Positions of the particles by rank of their ids.
 using Positions = std::vector<Vector3>;
 
-Positions positionsOf(const state::State& state)
+/// Columns x of a state, or X.
+Positions byId(const state::Particles& p, const std::array<state::Column<double>, 3>& columns)
 {
-    const auto& p = state.particles;
     std::vector<std::size_t> order(std::size_t(p.size()));
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
@@ -119,16 +149,27 @@ Positions positionsOf(const state::State& state)
     Positions out(order.size(), Vector3{});
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t a = 0; a < std::size_t(p.dim); ++a)
-            out[i][a] = p.x[a][order[i]];
+            out[i][a] = columns[a][order[i]];
     return out;
 }
 
-double distance(const Positions& a, const Positions& b)
+Positions positionsOf(const state::State& state)
+{
+    return byId(state.particles, state.particles.x);
+}
+
+/// RMS distance, the short way round where an axis is periodic.
+double distanceIn(const state::GridBox& grid, const Positions& a, const Positions& b)
 {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            sum += (a[i][k] - b[i][k]) * (a[i][k] - b[i][k]);
+        {
+            double d = a[i][k] - b[i][k];
+            if (grid.periodic[k])
+                d = std::remainder(d, grid.upper(int(k)) - grid.origin[k]);
+            sum += d * d;
+        }
     return std::sqrt(sum / double(std::max<std::size_t>(1, a.size())));
 }
 
@@ -179,7 +220,20 @@ class Comparison
             out_.spatial = distance(reference_, exactPositions());
     }
 
-    Positions exactPositions() const { return {}; }
+    Positions exactPositions() const
+    {
+        const auto& p = start_.particles;
+        Positions out = p.hasX() ? byId(p, p.X) : positionsOf(start_);
+        for (auto& x : out)
+        {
+            const Vector3 u = check_.exact(x, start_.time + check_.window);
+            for (std::size_t a = 0; a < 3; ++a)
+                x[a] += u[a];
+        }
+        return out;
+    }
+
+    double distance(const Positions& a, const Positions& b) const { return distanceIn(start_.grid, a, b); }
 
     Positions positionsAfter(const std::string& scheme, int count) const
     {

@@ -44,8 +44,7 @@ void energyOf(const TensorLanes<dim>& F, const ElasticModuli& moduli, double (&e
         double h[3];
         logarithms<dim>(b, h);
         const double volume = std::log1p(b.volume);
-        energy[l] = 0.5 * moduli.lame() * volume * volume +
-                    moduli.shear() * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+        energy[l] = 0.5 * moduli.lame() * volume * volume + moduli.shear() * (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
     }
 }
 

@@ -5,8 +5,8 @@
 ///     W       = lambda/2 (tr ln V)^2 + mu ln V : ln V      per initial volume
 ///     J sigma = lambda ln J I + 2 mu ln V
 ///
-/// Anand, "On H. Hencky's approximate strain-energy function for moderate deformations", J. Appl. Mech. 46 (1979) 78-82.
-/// In confined motion along y: J sigma_yy = M ln l. Principal values in closed form (leftStretch.hpp).
+/// Anand, "On H. Hencky's approximate strain-energy function for moderate deformations", J. Appl. Mech. 46 (1979)
+/// 78-82. In confined motion along y: J sigma_yy = M ln l. Principal values in closed form (leftStretch.hpp).
 ///
 ///     law hencky;
 ///     E   1e6;    // [Pa] > 0

@@ -3,7 +3,7 @@
 ///     L <- L (I + dt L/2)^-1              from the configuration L was taken over to that of mid-step
 ///     F <- exp(dt L) F        V = V0 det F           (det exp(dt L) = exp(dt tr L): no volume drift in rotation)
 ///     sigma <- dR sigma dR^T  dR = (I - dt W/2)^-1 (I + dt W/2), W = skew L   (Hughes & Winget 1980)
-///     dEps = dt D,            D = sym L
+///     dEps = dt D,            D = sym L, then turned by half of dR
 ///     U of F = R U            for the domains of cpGIMP
 /// All as loops over 64 lanes without branches. Verified in tests/unit/kinematics.cpp.
 #include "base/types.hpp"
@@ -34,7 +34,8 @@ void toMidStep(TakenOver where, double dt, TensorLanes<3>& L);
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F);
 void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F);
 
-/// sigma <- dR sigma dR^T.
+/// sigma <- dR sigma dR^T. Of a strain increment with dt/2: from the middle of the step, where it is taken, to the end,
+/// where the turned stress is; without that, shear that turns is of first order in the step.
 void rotateStress(const TensorLanes<2>& L, double dt, StressLanes<2>& stress);
 void rotateStress(const TensorLanes<3>& L, double dt, StressLanes<3>& stress);
 

@@ -39,6 +39,10 @@ struct Chunk
     alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
     alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
     const TensorLanes<dim>* F = nullptr;   ///< in: deformation gradient at the end of the step; hyperelastic laws need it
+    /// in: velocity gradient and length of the step `stress` has been turned over; laws in sub-steps (substep.hpp) look
+    /// at it. Null: the stress has not been turned.
+    const TensorLanes<dim>* L = nullptr;
+    double dt = 0;
     /// out: plastic work (sigma_start + sigma_end)/2 : dEps_p per current volume [J/m^3], so that elastic + plastic
     /// adds up to the work of the mid-step stress
     alignas(64) double plasticWork[lanes];
@@ -50,6 +54,7 @@ struct Chunk
     alignas(64) double yield[lanes];
     alignas(64) Region region[lanes]; ///< out: where each lane ended
     int apexReturns = 0;              ///< out: lanes below `count` that ended at the apex
+    int parts = 1;                    ///< out: how often the law was evaluated (laws in sub-steps)
 };
 
 class Hyperelastic;
@@ -82,8 +87,8 @@ class Law
     virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };
 
-/// A law whose stress follows from a strain energy W(F) per initial volume: sigma = dW/dF F^T/det F. Reads Chunk::F, and
-/// neither the stress at the start nor the strain increment; nothing drifts, and no stress is left where F = I.
+/// A law whose stress follows from a strain energy W(F) per initial volume: sigma = dW/dF F^T/det F. Reads Chunk::F,
+/// and neither the stress at the start nor the strain increment; nothing drifts, and no stress is left where F = I.
 class Hyperelastic : public Law
 {
   public:

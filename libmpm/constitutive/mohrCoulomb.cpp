@@ -193,8 +193,8 @@ MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
     dropsVolume = p.dilationAngle > 0 ? 0 : 1 / p.moduli.bulk();
 }
 
-MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters)
-    : parameters_(checked(parameters)), surface_(parameters)
+MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters, std::optional<Substep> substep)
+    : parameters_(checked(parameters)), surface_(parameters), substep_(substep)
 {}
 
 MohrCoulomb MohrCoulomb::read(const dictionary::Dictionary& material)
@@ -208,24 +208,30 @@ MohrCoulomb MohrCoulomb::read(const dictionary::Dictionary& material)
         material.get<double>({"frictionAngle", "angle of friction phi [deg]", unit::none, Bound::rightOpen(0, 90)});
     p.dilationAngle = material.get<double>({"dilationAngle", "angle of dilation psi [deg], at most frictionAngle",
                                             unit::none, Bound::between(0, p.frictionAngle), 0.0});
-    return MohrCoulomb(p);
+    return MohrCoulomb(p, readSubstep(material));
 }
 
 std::string MohrCoulomb::describe() const
 {
     const auto& p = parameters_;
     return fmt::format(
-        "mohrCoulomb: E {:g} Pa, nu {:g}, cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} deg",
-        p.moduli.young, p.moduli.poisson, p.cohesion, p.frictionAngle, p.dilationAngle);
+        "mohrCoulomb: E {:g} Pa, nu {:g}, cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} deg{}",
+        p.moduli.young, p.moduli.poisson, p.cohesion, p.frictionAngle, p.dilationAngle, describeSubstep(substep_));
 }
 
 void MohrCoulomb::update(Chunk<2>& chunk) const
 {
-    updateChunk(chunk, parameters_.moduli, surface_);
+    if (!substep_)
+        return updateChunk(chunk, parameters_.moduli, surface_);
+    updateInParts<2>(chunk, *substep_, parameters_.moduli, surface_.strength,
+                     [this](Chunk<2>& part) { updateChunk(part, parameters_.moduli, surface_); });
 }
 
 void MohrCoulomb::update(Chunk<3>& chunk) const
 {
-    updateChunk(chunk, parameters_.moduli, surface_);
+    if (!substep_)
+        return updateChunk(chunk, parameters_.moduli, surface_);
+    updateInParts<3>(chunk, *substep_, parameters_.moduli, surface_.strength,
+                     [this](Chunk<3>& part) { updateChunk(part, parameters_.moduli, surface_); });
 }
 } // namespace mpm::constitutive

@@ -20,18 +20,20 @@
 ///     cohesion       1e3;    // [Pa] >= 0
 ///     frictionAngle  42;     // [deg] in [0, 90)
 ///     dilationAngle  0;      // [deg] in [0, frictionAngle]; default 0
+///     substep        { tolerance 1e-4; }     // absent: none (substep.hpp)
 ///
 /// Tests: tests/unit/mohrCoulomb.cpp, tests/verification/rateEquations.cpp. Errors: InputError for values out of
 /// bounds.
 #include "constitutive/elasticTrial.hpp"
 #include "constitutive/mohrCoulombReturn.hpp"
+#include "constitutive/substep.hpp"
 
 namespace mpm::constitutive
 {
 class MohrCoulomb : public Law
 {
   public:
-    explicit MohrCoulomb(const MohrCoulombParameters& parameters);
+    explicit MohrCoulomb(const MohrCoulombParameters& parameters, std::optional<Substep> substep = {});
     static MohrCoulomb read(const dictionary::Dictionary& material);
 
     std::string name() const override { return "mohrCoulomb"; }
@@ -43,9 +45,11 @@ class MohrCoulomb : public Law
     bool plastic() const override { return true; }
 
     const MohrCoulombParameters& parameters() const { return parameters_; }
+    const std::optional<Substep>& substep() const { return substep_; }
 
   private:
     MohrCoulombParameters parameters_;
     MohrCoulombSurface surface_;
+    std::optional<Substep> substep_;
 };
 } // namespace mpm::constitutive

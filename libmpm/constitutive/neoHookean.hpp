@@ -1,13 +1,14 @@
 #pragma once
-/// Compressible neo-Hookean solid, hyperelastic. With J = det F, F_zz = 1 in plane strain, and Lame's lambda, mu of E, nu:
+/// Compressible neo-Hookean solid, hyperelastic. With J = det F, F_zz = 1 in plane strain, and Lame's lambda, mu of E,
+/// nu:
 ///
 ///     W     = mu/2 (tr F F^T - 3) - mu ln J + lambda/2 ln^2 J      per initial volume
 ///     P     = mu (F - F^-T) + lambda ln J F^-T                      P_aa = lambda ln J/F_aa + mu (F_aa - 1/F_aa)
 ///     sigma = (mu (F F^T - I) + lambda ln J I)/J
 ///
 /// Bonet & Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis", 2nd ed. (2008), section 6.4.3.
-/// Its acoustic tensor is rho_0 Q = (lambda (1 - ln J) + mu) n n + mu (n . b . n) I, b = F F^T: it stiffens in compression
-/// by -lambda ln J, in tension by mu b.
+/// Its acoustic tensor is rho_0 Q = (lambda (1 - ln J) + mu) n n + mu (n . b . n) I, b = F F^T: it stiffens in
+/// compression by -lambda ln J, in tension by mu b.
 ///
 ///     law neoHookean;
 ///     E   1e7;    // [Pa] > 0

@@ -16,8 +16,8 @@ struct PointStep
     double yield;       ///< f/max(|sigma|, strength scale)
 };
 
-/// The law's step from `stress` [Pa] over the strain increment `dStrain` [-], in 3D. For a hyperelastic law the axes have
-/// not turned since F = I: it gets F = exp(strain + dStrain), `strain` the sum of all increments before.
+/// The law's step from `stress` [Pa] over the strain increment `dStrain` [-], in 3D. For a hyperelastic law the axes
+/// have not turned since F = I: it gets F = exp(strain + dStrain), `strain` the sum of all increments before.
 PointStep updatePoint(const Law& law, const SymmetricTensor& stress, const SymmetricTensor& dStrain,
                       const SymmetricTensor& strain = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The linear solid of small-strain theory, made objective, hyperelastic: the nominal stress is linear in the stretch, the
-/// rotation taken out. With F = R U = V R, J = det F, F_zz = 1 in plane strain:
+/// The linear solid of small-strain theory, made objective, hyperelastic: the nominal stress is linear in the stretch,
+/// the rotation taken out. With F = R U = V R, J = det F, F_zz = 1 in plane strain:
 ///
 ///     W       = lambda/2 (tr(U - I))^2 + mu (U - I) : (U - I)      per initial volume
 ///     P       = R T,  T = lambda tr(U - I) I + 2 mu (U - I)          T: Biot stress

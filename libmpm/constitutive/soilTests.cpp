@@ -80,9 +80,10 @@ SymmetricTensor strainAt(const Law& law, const SymmetricTensor& stress)
         const double xx = (dx[0] - s[0]) / d, xy = (dy[0] - s[0]) / d, yx = (dx[1] - s[1]) / d, yy = (dy[1] - s[1]) / d;
         const double det = xx * yy - xy * yx;
         if (i == 49 || !std::isfinite(det) || det == 0)
-            throw InputError(fmt::format("{}: found no strain with the stress at the start, {:g} Pa along y and {:g} Pa "
-                                         "across; allowed is less",
-                                         law.name(), stress[1], stress[0]));
+            throw InputError(
+                fmt::format("{}: found no strain with the stress at the start, {:g} Pa along y and {:g} Pa "
+                            "across; allowed is less",
+                            law.name(), stress[1], stress[0]));
         lateral -= (yy * fx - xy * fy) / det;
         axial -= (xx * fy - yx * fx) / det;
     }

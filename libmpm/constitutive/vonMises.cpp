@@ -7,7 +7,8 @@ namespace mpm::constitutive
 {
 namespace
 {
-/// Only the deviator yields, so the plastic work of the mid-step stress is (s_start + s_end)/2 : (s_trial - s_end)/(2 G).
+/// Only the deviator yields, so the plastic work of the mid-step stress is (s_start + s_end)/2 : (s_trial - s_end)/(2
+/// G).
 template <int dim>
 void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, double yieldStress)
 {
@@ -46,7 +47,8 @@ void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, double yieldStr
 }
 } // namespace
 
-VonMises::VonMises(const ElasticModuli& moduli, double yieldStress) : moduli_(moduli), yieldStress_(yieldStress)
+VonMises::VonMises(const ElasticModuli& moduli, double yieldStress, std::optional<Substep> substep)
+    : moduli_(moduli), yieldStress_(yieldStress), substep_(substep)
 {
     requireModuli(moduli);
     if (!std::isfinite(yieldStress) || yieldStress <= 0)
@@ -56,22 +58,31 @@ VonMises::VonMises(const ElasticModuli& moduli, double yieldStress) : moduli_(mo
 VonMises VonMises::read(const dictionary::Dictionary& material)
 {
     const ElasticModuli moduli = readModuli(material);
-    return {moduli, material.get<double>({"yieldStress", "yield stress in uniaxial tension",
-                                          dictionary::unit::pressure, dictionary::Bound::positive()})};
+    return {moduli,
+            material.get<double>({"yieldStress", "yield stress in uniaxial tension", dictionary::unit::pressure,
+                                  dictionary::Bound::positive()}),
+            readSubstep(material)};
 }
 
 std::string VonMises::describe() const
 {
-    return fmt::format("vonMises: E {:g} Pa, nu {:g}, yieldStress {:g} Pa", moduli_.young, moduli_.poisson, yieldStress_);
+    return fmt::format("vonMises: E {:g} Pa, nu {:g}, yieldStress {:g} Pa{}", moduli_.young, moduli_.poisson,
+                       yieldStress_, describeSubstep(substep_));
 }
 
 void VonMises::update(Chunk<2>& chunk) const
 {
-    updateChunk(chunk, moduli_, yieldStress_);
+    if (!substep_)
+        return updateChunk(chunk, moduli_, yieldStress_);
+    updateInParts<2>(chunk, *substep_, moduli_, yieldStress_,
+                     [this](Chunk<2>& part) { updateChunk(part, moduli_, yieldStress_); });
 }
 
 void VonMises::update(Chunk<3>& chunk) const
 {
-    updateChunk(chunk, moduli_, yieldStress_);
+    if (!substep_)
+        return updateChunk(chunk, moduli_, yieldStress_);
+    updateInParts<3>(chunk, *substep_, moduli_, yieldStress_,
+                     [this](Chunk<3>& part) { updateChunk(part, moduli_, yieldStress_); });
 }
 } // namespace mpm::constitutive

@@ -12,16 +12,17 @@
 ///     E           1e6;     // [Pa] > 0
 ///     nu          0.3;     // in (-1, 0.5)
 ///     yieldStress 20e3;    // [Pa] > 0, in uniaxial tension; undrained clay: sqrt(3) times its shear strength
+///     substep     { tolerance 1e-4; }     // absent: none (substep.hpp)
 ///
 /// Tests: tests/unit/vonMises.cpp. Errors: InputError for values out of bounds.
-#include "constitutive/elasticTrial.hpp"
+#include "constitutive/substep.hpp"
 
 namespace mpm::constitutive
 {
 class VonMises : public Law
 {
   public:
-    VonMises(const ElasticModuli& moduli, double yieldStress);
+    VonMises(const ElasticModuli& moduli, double yieldStress, std::optional<Substep> substep = {});
     static VonMises read(const dictionary::Dictionary& material);
 
     std::string name() const override { return "vonMises"; }
@@ -31,10 +32,13 @@ class VonMises : public Law
     double bulkModulus() const override { return moduli_.bulk(); }
     double shearModulus() const override { return moduli_.shear(); }
     bool plastic() const override { return true; }
+    const ElasticModuli& moduli() const { return moduli_; }
     double yieldStress() const { return yieldStress_; }
+    const std::optional<Substep>& substep() const { return substep_; }
 
   private:
     ElasticModuli moduli_;
     double yieldStress_;
+    std::optional<Substep> substep_;
 };
 } // namespace mpm::constitutive

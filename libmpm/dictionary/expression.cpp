@@ -108,7 +108,8 @@ std::string complaint(const mu::ParserError& error, const std::string& text, con
 }
 } // namespace
 
-/// What an expression is made of: constants that are formulas, then itself, each with the variables and the ones before it.
+/// What an expression is made of: constants that are formulas, then itself, each with the variables and the ones before
+/// it.
 struct Expression::Formula
 {
     std::string text;

@@ -1,8 +1,8 @@
 #pragma once
 /// Formulas a user writes for a number that varies, evaluated by muParser.
 ///
-///     value ("A*sin(pi*X)*cos(c*t)" 0 -9.81);     // numbers, or formulas in double quotes; in 2D the third is 0 or absent
-///     constants { A 0.05; c 100; R "sqrt(X^2 + Y^2)"; s "A*sin(c*pi*t)"; }   // names of one's own
+///     value ("A*sin(pi*X)*cos(c*t)" 0 -9.81);     // numbers, or formulas in double quotes; in 2D the third is 0 or
+///     absent constants { A 0.05; c 100; R "sqrt(X^2 + Y^2)"; s "A*sin(c*pi*t)"; }   // names of one's own
 ///
 /// Names: the variables of the place where the formula stands (x y z X Y Z t ...), the constants, pi. A constant is a
 /// number, or a formula of the variables and of the constants before it. Operators + - * / ^
@@ -10,8 +10,8 @@
 /// asinh acosh atanh sqrt exp ln log (both natural) log10 log2 abs sign rint min max sum avg; angles in rad.
 ///
 /// Errors (InputError, file:line): an unknown name with the nearest known one, bad syntax with the place, '=' (there is
-/// nothing to assign to), more than one value, more than 1000 characters; a constant whose name is none or already means
-/// something.
+/// nothing to assign to), more than one value, more than 1000 characters; a constant whose name is none or already
+/// means something.
 #include "dictionary/dictionary.hpp"
 
 namespace mpm::dictionary
@@ -49,9 +49,9 @@ class Expression
     const std::string& text() const;
     const Location& where() const;
 
-    /// out[i] = value at variables[k][i], k in the order given to the constructor; variables not used may be null. May be
-    /// called by several threads at once; the same numbers always give the same bits. Returns the first i whose value is
-    /// not finite, or -1.
+    /// out[i] = value at variables[k][i], k in the order given to the constructor; variables not used may be null. May
+    /// be called by several threads at once; the same numbers always give the same bits. Returns the first i whose
+    /// value is not finite, or -1.
     Index evaluate(const std::vector<const double*>& variables, Index count, double* out) const;
     double evaluate(const std::vector<double>& variables) const;
 

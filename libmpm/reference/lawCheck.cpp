@@ -1,6 +1,8 @@
 #include "reference/lawCheck.hpp"
 
 #include "base/terminal.hpp"
+#include "constitutive/vonMises.hpp"
+#include "reference/vonMisesRates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +73,8 @@ LawCheck readPath(const Dictionary& dict, const Dictionary& d, const std::string
     auto law = d.found("law")        ? std::shared_ptr<const constitutive::Law>(constitutive::makeLaw(d))
                : d.found("material") ? findLaw(d, laws)
                                      : findLaw(dict, laws);
-    return {name, std::move(law), readStress(d), StrainPath::harmonic(rates, end), steps, {}};
+    const double spin = d.get<double>({"spin", "of the axes of the rates about z", unit::rate, Bound::any(), 0.0});
+    return {name, std::move(law), readStress(d), StrainPath::turning(rates, spin, end), steps, {}};
 }
 
 /// The rows of one particle within a span of time.
@@ -182,25 +185,49 @@ std::vector<LawCheck> readLawChecks(const Dictionary& dict, const Laws& laws, co
     return checks;
 }
 
+namespace
+{
+/// The solution of a law's rate equations, and the law without sub-steps (null: it has none).
+struct Judged
+{
+    RateSolution exact;
+    std::unique_ptr<const constitutive::Law> plain;
+};
+
+Judged solve(const LawCheck& check)
+{
+    if (const auto* law = dynamic_cast<const constitutive::MohrCoulomb*>(check.law.get()))
+        return {integrateRates(law->parameters(), check.start, check.path),
+                law->substep() ? std::make_unique<constitutive::MohrCoulomb>(law->parameters()) : nullptr};
+    if (const auto* law = dynamic_cast<const constitutive::VonMises*>(check.law.get()))
+        return {integrateRates(VonMisesParameters{law->moduli(), law->yieldStress()}, check.start, check.path),
+                law->substep() ? std::make_unique<constitutive::VonMises>(law->moduli(), law->yieldStress()) : nullptr};
+    throw InputError(fmt::format(
+        "found the law {}, allowed are mohrCoulomb and vonMises, whose rate equations are known", check.law->name()));
+}
+} // namespace
+
 LawCheckResult runLawCheck(const LawCheck& check)
 {
-    const auto* law = dynamic_cast<const constitutive::MohrCoulomb*>(check.law.get());
-    if (!law)
-        throw InputError(fmt::format("{}: found the law {}, allowed is mohrCoulomb, whose rate equations are known",
-                                     check.name, check.law->name()));
     LawCheckResult out;
+    std::unique_ptr<const constitutive::Law> without;
     try
     {
-        out.exact = integrateRates(law->parameters(), check.start, check.path);
+        Judged judged = solve(check);
+        out.exact = std::move(judged.exact);
+        without = std::move(judged.plain);
     }
     catch (const InputError& error)
     {
         throw InputError(check.name + ": " + error.what());
     }
-    out.rows = judgeReturnMap(*law, check.start, check.path, out.exact, check.steps);
+    const auto& plain = without ? *without : *check.law;
+    out.rows = judgeReturnMap(plain, check.start, check.path, out.exact, check.steps);
+    if (without)
+        out.substeps = judgeSubsteps(*check.law, plain, check.start, check.path, out.exact, check.steps);
     if (check.recordedEnd)
     {
-        const auto undivided = judgeReturnMap(*law, check.start, check.path, out.exact, {1}).front().stress;
+        const auto undivided = judgeReturnMap(plain, check.start, check.path, out.exact, {1}).front().stress;
         double size = 0;
         for (const auto& s : out.exact.stress)
             size = std::max(size, norm(s));
@@ -233,20 +260,34 @@ std::string lawCheckText(const LawCheck& check, const LawCheckResult& result)
     for (const auto& row : result.rows)
         table.row({std::to_string(row.steps), fmt::format("{:.4e}", row.final), fmt::format("{:.4e}", row.largest),
                    row.order ? fmt::format("{:.2f}", *row.order) : "-", fmt::format("{:.1e}", row.yield)});
-    return text + table.text();
+    text += table.text();
+    if (result.substeps.empty())
+        return text;
+    Table substeps(
+        {"steps, in sub-steps", "error at the end", "largest error", "f/scale", "law calls a step", "time ratio"});
+    for (const auto& row : result.substeps)
+        substeps.row({std::to_string(row.steps), fmt::format("{:.4e}", row.final), fmt::format("{:.4e}", row.largest),
+                      fmt::format("{:.1e}", row.yield), fmt::format("{:.1f}", row.calls),
+                      fmt::format("{:.1f}", row.time)});
+    return text + substeps.text();
 }
 
 CsvTable lawCheckTable()
 {
-    return CsvTable({"path", "steps", "error", "largestError", "order", "yield", "yieldTime", "drift", "recordError"});
+    return CsvTable({"path", "method", "steps", "error", "largestError", "order", "yield", "lawCalls", "timeRatio",
+                     "yieldTime", "drift", "recordError"});
 }
 
 void addLawCheckRows(CsvTable& table, const LawCheck& check, const LawCheckResult& result)
 {
     const auto text = [](std::optional<double> x) { return x ? fmt::format("{:.17g}", *x) : std::string(); };
     for (const auto& row : result.rows)
-        table.addRow({check.name, std::to_string(row.steps), text(row.final), text(row.largest), text(row.order),
-                      text(row.yield), text(result.exact.yieldTime), text(result.exact.drift),
-                      text(result.recordError)});
+        table.addRow({check.name, "returnMap", std::to_string(row.steps), text(row.final), text(row.largest),
+                      text(row.order), text(row.yield), "1", "1", text(result.exact.yieldTime),
+                      text(result.exact.drift), text(result.recordError)});
+    for (const auto& row : result.substeps)
+        table.addRow({check.name, "substep", std::to_string(row.steps), text(row.final), text(row.largest), "",
+                      text(row.yield), text(row.calls), text(row.time), text(result.exact.yieldTime),
+                      text(result.exact.drift), ""});
 }
 } // namespace mpm::reference

@@ -10,8 +10,10 @@
 ///         rotatingShear
 ///         {
 ///             law mohrCoulomb;  E 20e6;  nu 0.42;  cohesion 1e3;  frictionAngle 42;    // or none of them: material
+///             substep { tolerance 1e-4; }  // a law in sub-steps (constitutive/substep.hpp) is judged with and without
 ///             startStress (-40e3 -60e3 -48e3 0 0 0);       // [Pa] xx yy zz xy yz zx, default zero
 ///             endTime     1;                               // [s]
+///             spin        0;       // [rad/s] the rates below are those of axes that turn so about z in the material
 ///             rate                                         // xx yy zz xy yz zx; those not there are zero
 ///             {
 ///                 xx { function cos; amplitude  1e-2; angularFrequency 2.4; }   // 1e-2 cos 2.4 t [1/s], [rad/s]
@@ -31,7 +33,11 @@
 /// A table of recorded paths has the columns particle, time, exx ... ezx (accumulated strain in the co-rotated frame)
 /// and sxx ... szx (stress there); the path starts at the first row's stress. `recordError` compares the return map in
 /// undivided increments with the recorded stress: round-off, unless the record is not of this law.
-/// Errors: InputError with file:line; only Mohr-Coulomb has rate equations.
+///
+/// A strain rate whose axes turn by w t in the material is what a step of constant velocity gradient with the spin -w
+/// does. The return map's rows take the exact strain of each step as the material sees it; sub-steps are judged as in
+/// the time step, where the strain stands still and the stress turns: give such a path as a constant rate with `spin`.
+/// Errors: InputError with file:line; Mohr-Coulomb and von Mises have rate equations.
 #include "base/csvTable.hpp"
 #include "dictionary/dictionary.hpp"
 #include "reference/rateEquations.hpp"
@@ -57,7 +63,8 @@ struct LawCheckResult
 {
     RateSolution exact;
     std::vector<ReturnMapError> rows;
-    std::optional<double> recordError; ///< |return map in recorded increments - record|/largest |exact|
+    std::vector<SubstepError> substeps; ///< of a law in sub-steps
+    std::optional<double> recordError;  ///< |return map in recorded increments - record|/largest |exact|
 };
 
 /// Everything a dictionary asks for; `laws` are the materials of the case, `folder` is the case.
@@ -69,7 +76,8 @@ LawCheckResult runLawCheck(const LawCheck& check);
 
 /// A heading with regions, yield time and drift, and one line a number of steps.
 std::string lawCheckText(const LawCheck& check, const LawCheckResult& result);
-/// Appends path, steps, error, largestError, order, yield, yieldTime, drift, recordError.
+/// Appends path, method (returnMap or substep), steps, error, largestError, order, yield, lawCalls, timeRatio,
+/// yieldTime, drift, recordError.
 void addLawCheckRows(CsvTable& table, const LawCheck& check, const LawCheckResult& result);
 CsvTable lawCheckTable();
 } // namespace mpm::reference

@@ -60,6 +60,24 @@ struct ReturnMapError
     SymmetricTensor stress;      ///< at the end
 };
 
+/// The same law in sub-steps (constitutive/substep.hpp) and the price of it.
+struct SubstepError
+{
+    int steps;
+    double final;           ///< as above
+    double largest;         ///< as above
+    double yield;           ///< as above
+    double calls;           ///< evaluations of the plain law a step
+    double time;            ///< seconds a step over those of the plain law
+    SymmetricTensor stress; ///< at the end
+};
+
+/// `law` works in sub-steps, `plain` is the law without them. Steps are those of the time step: where a path's axes
+/// spin, the strain of a step stands still in them and the stress turns.
+std::vector<SubstepError> judgeSubsteps(const constitutive::Law& law, const constitutive::Law& plain,
+                                        const SymmetricTensor& start, const StrainPath& path, const RateSolution& exact,
+                                        const std::vector<int>& steps);
+
 std::vector<ReturnMapError> judgeReturnMap(const constitutive::Law& law, const SymmetricTensor& start,
                                            const StrainPath& path, const RateSolution& exact,
                                            const std::vector<int>& steps);

@@ -22,11 +22,17 @@ struct Harmonic
     double integral(double t) const; ///< strain from 0 to t
 };
 
+/// A tensor turned by an angle about z: Q T Q^T.
+SymmetricTensor turned(const SymmetricTensor& tensor, double angle);
+
 class StrainPath
 {
   public:
     /// One piece from t = 0 to `end` with the rates of the six components.
     static StrainPath harmonic(const std::array<Harmonic, 6>& components, double end);
+    /// The same with the rates of axes that turn about z at `spin` [rad/s] as the material sees them (a step with the
+    /// velocity gradient D + W sees its strain rate turn by the angle -w t, w the spin of W).
+    static StrainPath turning(const std::array<Harmonic, 6>& components, double spin, double end);
     /// Straight pieces between rows; times must grow. Throws InputError otherwise, or for fewer than two rows.
     static StrainPath table(std::vector<double> times, std::vector<SymmetricTensor> strains);
 
@@ -43,8 +49,14 @@ class StrainPath
     /// Strain between two times of one piece.
     SymmetricTensor increment(std::size_t piece, double from, double to) const { return increment_(piece, from, to); }
 
+    /// Spin of the axes of the given rates, and the strain between two times as seen in them.
+    double spin() const { return spin_; }
+    SymmetricTensor incrementInAxes(double from, double to) const { return inAxes_(from, to); }
+
   private:
     StrainPath() = default;
+    double spin_ = 0;
+    std::function<SymmetricTensor(double, double)> inAxes_;
     std::vector<double> breaks_;
     bool straight_ = false;
     std::function<SymmetricTensor(std::size_t, double)> rate_;

@@ -18,6 +18,16 @@ void Equations<dim, Shape>::load(const double* y, int column, Index first, int c
     std::fill(out + count, out + lanes, out[count - 1]);
 }
 
+/// Where a position lies in the box: positions in y run on through periodic sides.
+template <int dim, class Shape>
+double Equations<dim, Shape>::inBox(int axis, double x) const
+{
+    if (!box_.periodic[std::size_t(axis)])
+        return x;
+    const double low = box_.origin[std::size_t(axis)], length = box_.upper(axis) - low;
+    return x - length * std::floor((x - low) / length);
+}
+
 template <int dim, class Shape>
 void Equations<dim, Shape>::store(double* y, int column, Index first, int count, const double (&in)[lanes]) const
 {
@@ -59,11 +69,38 @@ Index Equations<dim, Shape>::domains(const state::Particles& p, Index first, int
     return capped;
 }
 
+/// visit(law, mine) for each law of F in a chunk; mine(lane): is the lane of it?
+template <int dim, class Shape>
+template <class Visit>
+void Equations<dim, Shape>::forHyperelastic(const state::Particles& p, Index first, int count, Visit&& visit) const
+{
+    if (!hasHyperelastic_)
+        return;
+    const std::int32_t* material = p.material.data() + first;
+    const auto [low, high] = std::minmax_element(material, material + count);
+    for (std::int32_t m = *low; m <= *high; ++m)
+        if (const auto* law = moduli_[std::size_t(m)].hyperelastic)
+            if (std::find(material, material + count, m) != material + count)
+                visit(*law, [=](int lane) { return material[lane < count ? lane : count - 1] == m; });
+}
+
 /// Stress of laws of F; lanes of other materials keep what they have.
 template <int dim, class Shape>
-void Equations<dim, Shape>::stressOf(const state::Particles&, Index, int, const constitutive::TensorLanes<dim>&,
-                                     double (&)[stressSize<dim>][lanes]) const
-{}
+void Equations<dim, Shape>::stressOf(const state::Particles& p, Index first, int count,
+                                     const constitutive::TensorLanes<dim>& F,
+                                     double (&stress)[stressSize<dim>][lanes]) const
+{
+    forHyperelastic(p, first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+        constitutive::Chunk<dim> chunk;
+        chunk.count = count;
+        chunk.F = &F;
+        law.update(chunk);
+        for (int k = 0; k < stressSize<dim>; ++k)
+            for (int l = 0; l < lanes; ++l)
+                if (mine(l))
+                    stress[k][l] = chunk.stress[k][l];
+    });
+}
 
 /// x, v, F, J, V, stress, domains and masses of one chunk.
 template <int dim, class Shape>
@@ -72,6 +109,9 @@ void Equations<dim, Shape>::loadChunk(Workspace& ws, Index first, int count, con
     for (int a = 0; a < dim; ++a)
     {
         load(y, ofX + a, first, count, ws.x[a]);
+        if (box_.periodic[std::size_t(a)])
+            for (double& x : ws.x[a])
+                x = inBox(a, x);
         load(y, ofV + a, first, count, ws.v[a]);
     }
     for (int k = 0; k < dim * dim; ++k)
@@ -231,11 +271,11 @@ void Equations<dim, Shape>::stressRates(Workspace& ws, Index first, int count, P
                 out[k] += 0.5 * ((L[i][n] - L[n][i]) * s[n][j] + (L[j][n] - L[n][j]) * s[n][i]);
         }
         for (int k = 0; k < nc; ++k)
-            ws.stressRate[k][l] = modulus.rateLaw ? out[k] : 0;
+            ws.stressRate[k][l] = modulus.hyperelastic ? 0 : out[k];
         if (powers && l < count)
         {
             powers->stress += ws.volume[l] * power;
-            if (modulus.rateLaw)
+            if (!modulus.hyperelastic)
                 powers->finiteStrain += ws.volume[l] * trace * energyDensity(modulus, sigma);
         }
     }
@@ -287,6 +327,19 @@ void Equations<dim, Shape>::unpackChunk(const double* y, state::Particles& p, In
     for (int k = 0; k < nc; ++k)
         transfer::storeLanes(p.stress[k].data() + first, count, stress[k]);
     sums.cappedDomains = domains(p, first, count, F, half);
+    alignas(64) double stored[lanes], stiffness[lanes]; // of laws of F: W(F), wave speed squared over that at rest
+    std::copy_n(J, lanes, stiffness);
+    forHyperelastic(p, first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+        alignas(64) double energy[lanes], factor[lanes];
+        law.strainEnergy(F, energy);
+        law.waveFactor(F, factor);
+        for (int l = 0; l < lanes; ++l)
+            if (mine(l))
+            {
+                stored[l] = energy[l];
+                stiffness[l] = factor[l];
+            }
+    });
     for (int l = 0; l < count; ++l)
     {
         const std::size_t i = std::size_t(first + l);
@@ -298,9 +351,11 @@ void Equations<dim, Shape>::unpackChunk(const double* y, state::Particles& p, In
         double sigma[6] = {};
         for (int k = 0; k < nc; ++k)
             sigma[k] = stress[k][l];
-        sums.strainEnergy += p.volume[i] * energyDensity(moduli_[std::size_t(p.material[i])], sigma);
+        const Modulus& modulus = moduli_[std::size_t(p.material[i])];
+        sums.strainEnergy +=
+            modulus.hyperelastic ? p.volume0[i] * stored[l] : p.volume[i] * energyDensity(modulus, sigma);
         sums.smallestJacobian = std::min(sums.smallestJacobian, J[l]);
-        sums.largestJacobian = std::max(sums.largestJacobian, J[l]);
+        sums.largestJacobian = std::max(sums.largestJacobian, stiffness[l]);
     }
 }
 } // namespace mpm::semiDiscrete

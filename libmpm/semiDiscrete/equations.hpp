@@ -35,7 +35,7 @@ class Equations : public SemiDiscrete
     /// What a law needs of its material, by Particles::material.
     struct Modulus
     {
-        bool rateLaw;
+        const constitutive::Hyperelastic* hyperelastic; ///< null: the rate law
         double lame, twoG, halfOverBulk, quarterOverShear;
     };
 
@@ -79,8 +79,11 @@ class Equations : public SemiDiscrete
                   Vectors& half) const;
     void unpackChunk(const double* y, state::Particles& p, Index first, int count, Summary& sums, Index& bad) const;
     static double energyDensity(const Modulus& modulus, const double (&sigma)[6]);
+    template <class Visit>
+    void forHyperelastic(const state::Particles& p, Index first, int count, Visit&& visit) const;
     template <class Body>
     void withWeights(Workspace& ws, Body&& body) const;
+    double inBox(int axis, double x) const;
     void load(const double* y, int column, Index first, int count, double (&out)[lanes]) const;
     void store(double* y, int column, Index first, int count, const double (&in)[lanes]) const;
     [[noreturn]] void failOutside() const;
@@ -92,7 +95,8 @@ class Equations : public SemiDiscrete
     state::GridBox box_;
     transfer::WallPlanes wallPlanes_;
     std::vector<Modulus> moduli_;
-    bool hasStress_ = false;
+    bool hasStress_ = false;       ///< is there a rate law?
+    bool hasHyperelastic_ = false; ///< is there a law of F?
 
     state::TileLayout layout_;
     state::TileGrid grid_;

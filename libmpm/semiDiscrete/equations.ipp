@@ -1,7 +1,6 @@
 // Definitions of Equations, included by the files that instantiate it.
 #pragma once
 #include "base/error.hpp"
-#include "constitutive/linearElastic.hpp"
 #include "semiDiscrete/chunkRates.ipp"
 #include "state/particleOrder.hpp"
 
@@ -23,9 +22,8 @@ Equations<dim, Shape>::Equations(const state::State& state, Model model)
     {
         const auto& law = *material.law;
         const double K = law.bulkModulus(), G = law.shearModulus();
-        const bool rateLaw = dynamic_cast<const constitutive::LinearElastic*>(&law) != nullptr;
-        moduli_.push_back({rateLaw, K - 2.0 / 3 * G, 2 * G, 0.5 / K, 0.25 / G});
-        hasStress_ = hasStress_ || rateLaw;
+        moduli_.push_back({law.hyperelastic(), K - 2.0 / 3 * G, 2 * G, 0.5 / K, 0.25 / G});
+        (law.hyperelastic() ? hasHyperelastic_ : hasStress_) = true;
     }
     arrange(state);
 }
@@ -65,7 +63,8 @@ void Equations<dim, Shape>::sortAnew(const double* y)
         std::array<Index, 3> base{};
         for (int a = 0; a < dim; ++a)
         {
-            const double s = (y[(ofX + a) * count_ + slot_[std::size_t(i)]] - box_.origin[a]) / box_.h;
+            const double s =
+                (inBox(a, y[(ofX + a) * count_ + slot_[std::size_t(i)]]) - box_.origin[a]) / box_.h;
             const bool inside = s > -1 && s < double(box_.cells[a] + 1); // others are refused by the pass that follows
             base[a] = inside ? Index(std::floor(s - 0.5 * (Narrow::nodes - 2))) : 0;
         }

@@ -13,7 +13,7 @@ std::string whyNotSmooth(const Model& model)
         if (material.law->plastic())
             return fmt::format("the law {} of '{}' can yield: its stress rate jumps", material.law->name(),
                                material.name);
-        if (!dynamic_cast<const constitutive::LinearElastic*>(material.law.get()))
+        if (!material.law->hyperelastic() && !dynamic_cast<const constitutive::LinearElastic*>(material.law.get()))
             return fmt::format("the law {} of '{}' is neither a rate law nor one of F", material.law->name(),
                                material.name);
     }

@@ -66,7 +66,8 @@ struct Summary
     double kineticEnergy = 0, strainEnergy = 0; ///< [J]
     Vector3 momentum{};                         ///< [N s]
     double largestSpeed = 0;                    ///< [m/s]
-    double smallestJacobian = 1, largestJacobian = 1;
+    double smallestJacobian = 1;
+    double largestJacobian = 1; ///< as State::largestJacobian
     Index cappedDomains = 0; ///< domains wider than the shape allows, held there
 };
 

@@ -133,6 +133,8 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         if (scene_.bodyForce)
         {
             alignas(64) double b[3][lanes];
+            for (int a = 0; a < dim && pass.moves; ++a) // the old positions are not needed any more
+                transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
             scene_.bodyForce->acceleration(p, first, count, state_.time + (pass.moves ? dt : 0), b);
             transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
         }

@@ -13,9 +13,11 @@
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
 ///                          density, s the stress before a step, s' the same turned, S after it, V and V' the
-///                          volumes, sum (u + u')/2 (V' - V) + (V' - V) (s' - S) : dEps/4 + V (s' - s) : dEps/2.
+///                          volumes, e = dt sym L the strain forces do work on and dEps the one the law sees
+///                          (constitutive/kinematics.hpp),
+///                          sum (u + u')/2 (V' - V) + (V + V')/2 (s' + S) : dEps/2 - (V s + V' S) : e/2.
 ///                          Of hyperelastic laws: the change of their energy less the work of the trapezoidal rule,
-///                          sum V0 (W' - W) - (V s + V' S) : dEps/2, third order in dt
+///                          sum V0 (W' - W) - (V s + V' S) : e/2, third order in dt
 ///     staggering           energy that velocities lack because they live half a step off the stresses, a function of
 ///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
 ///                          leapfrog keeps kinetic + strain energy + staggering, not their sum without it

@@ -87,8 +87,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
     transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
     loadModuli(ws, first, count);
-    alignas(64) double energyBefore[lanes], energy[lanes], work[lanes], workTurned[lanes], workAfter[lanes];
-    workOfStrain<dim>(chunk.stress, chunk.dStrain, work);
+    alignas(64) double energyBefore[lanes], energy[lanes], workTurned[lanes], workAfter[lanes];
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
@@ -98,9 +97,12 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     ws.ahead.some(4);
     constitutive::determinant(ws.F, ws.J);
     constitutive::rotateStress(ws.L, dt, chunk.stress);
+    constitutive::rotateStress(ws.L, 0.5 * dt, chunk.dStrain); // from the middle of the step to its end
     ws.ahead.some(5);
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workTurned);
     chunk.F = &ws.F;
+    chunk.L = &ws.L;
+    chunk.dt = dt;
     callLaws(first, count, chunk);
     ws.ahead.some(5);
 
@@ -151,10 +153,9 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     for (int l = 0; l < lanes; ++l)
     {
         const double grown = ws.volume[l] - ws.volumeBefore[l];
-        energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown + 0.25 * grown * (workTurned[l] - workAfter[l]) +
-                          0.5 * ws.volumeBefore[l] * (workTurned[l] - work[l]) +
-                          0.5 * (ws.volumeBefore[l] * (work[l] - workOfForces[l]) +
-                                 ws.volume[l] * (workAfter[l] - workOfForcesAfter[l]));
+        energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown +
+                          0.25 * (ws.volumeBefore[l] + ws.volume[l]) * (workTurned[l] + workAfter[l]) -
+                          0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
         workTurned[l] = ws.volumeBefore[l];
         ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }

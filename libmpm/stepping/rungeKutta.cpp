@@ -123,6 +123,9 @@ void RungeKutta::takeStages(double dt)
             Clock clock(times_.toGrid);
             equations_->rates(state_.time + start, s == 0 ? start_.data() : at_.data(), rate_.data(), &powers);
         }
+        if (scene_.bodyForce)
+            if (const auto fault = scene_.bodyForce->takeFault(); !fault.empty())
+                throw StepError(fault);
         report_.lightestNode = powers.lightestNode;
         book(dt, table[s].weight, powers);
         const auto& before = s == 0 ? start_ : sum_;
@@ -152,6 +155,7 @@ void RungeKutta::finish()
 {
     Clock clock(times_.toParticles);
     const auto summary = equations_->unpack(sum_.data(), state_);
+    wrapPositions(state_);
     state_.ledger.kineticEnergy = summary.kineticEnergy;
     state_.largestJacobian = summary.largestJacobian;
     report_.strainEnergy = summary.strainEnergy;

@@ -136,8 +136,19 @@ class Laws(unittest.TestCase):
             self.assertIn(stress, text)
         rows = rows_of(case / "postProcessing" / "checkIntegrationLaw.csv")
         last = {row["path"]: row for row in rows}
-        self.assertEqual(list(last), ["columnSoil", "nonAssociated", "Tresca", "associated", "particle 7"])
-        for name in list(last)[:4]:
+        self.assertEqual(list(last), ["columnSoil", "columnSoilInSubsteps", "nonAssociated", "Tresca", "associated",
+                                      "particle 7"])
+        # the same path by spin: the same rows; in sub-steps one step is as good as its tolerance
+        of = {(row["path"], row["method"], row["steps"]): row for row in rows}
+        for steps in ("1", "64", "512"):
+            plain, spun = (float(of[name, "returnMap", steps]["error"]) for name in ("columnSoil", "columnSoilInSubsteps"))
+            self.assertAlmostEqual(plain, spun, delta=1e-9)
+        self.assertGreater(float(of["columnSoilInSubsteps", "returnMap", "1"]["error"]), 0.3)
+        for steps in ("1", "8", "64"):
+            row = of["columnSoilInSubsteps", "substep", steps]
+            self.assertLess(float(row["error"]), 1e-4)
+            self.assertGreater(float(row["lawCalls"]), 1)
+        for name in ("columnSoil", "nonAssociated", "Tresca", "associated"):
             self.assertEqual(last[name]["steps"], "512")
             self.assertAlmostEqual(float(last[name]["order"]), 1, delta=0.05)
             self.assertLess(float(last[name]["drift"]), 1e-9)

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import h5py
 
-import accuracyTable
+import errorTable
 from wrongInput import snapshot
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -116,10 +116,12 @@ class Prediction(Case):
         self.found(r"on disk +(4) states of .*, of which the last 2 stay")
 
     def test_steps_that_adapt_are_an_estimate(self):
+        self.no_splitting()
         self.change("system/controlDict", "adjustTimeStep", "yes")
         self.dry_run()
         estimate, step, falling = self.found(
             r"steps +about (\d+), estimated from the step allowed now, ([\d.e-]+) s; (\d+) at the speed of a fall")
+        self.found(r"the middle between (\S+) \w+, as the state is now, and \S+ \w+, with the larger number of steps")
         self.run_utility("mpmSolve")
         real = int(self.found(r"Done: (\d+) steps"))
         self.assertLessEqual(int(estimate) - 1, real)
@@ -131,18 +133,31 @@ class Prediction(Case):
         self.assertEqual(self.found(r"if each splits once, at the start \((\d+) particles"), "7200")
         self.assertEqual(self.found(r"at most (\d+) particles by maxGeneration and maxParticles"), "460800")
 
+    def test_domains_that_will_be_wider_make_a_range(self):
+        self.no_splitting()
+        self.change("system/mpmSchemes", "shape", "cpGIMP")
+        self.dry_run()
+        self.found(r"speed +([\d.]+) ns per particle and step .*; ([\d.]+) when domains are wider than a cell")
+
     def test_a_rehearsal_changes_no_bit_of_the_run(self):
         self.no_splitting()
         self.dry_run()
         self.run_utility("mpmSolve")
         with h5py.File(self.case / "0.1" / "state.h5") as file:
             first = file["particles/position"][()]
-        accuracyTable.write(self.case, [accuracyTable.row("same", endTime=0.1)])
+        errorTable.write(self.case, [errorTable.row("same", endTime=0.1)])
         self.change("system/controlDict", "startFrom", "firstTime")
         self.run_utility("mpmSolve", "-overwrite", "-withinError", "0.5")
         self.assertIn("say so already", self.log)
         with h5py.File(self.case / "0.1" / "state.h5") as file:
             self.assertTrue((file["particles/position"][()] == first).all())
+
+    def test_nothing_beyond_the_end_is_rehearsed(self):
+        self.no_splitting()
+        self.change("system/controlDict", "endTime", "0.003")
+        self.dry_run()
+        self.found(r"rehearsed +(3) steps in")
+        self.found(r"predicted +([\d.]+) ")
 
     def test_a_step_that_cannot_be_taken_is_said(self):
         self.no_splitting()
@@ -160,17 +175,17 @@ class Picked(Case):
 
     def setUp(self):
         super().setUp()
-        rows = [accuracyTable.row("plain", endTime=0.1, error=0.05, cpuSeconds=0.01),
-                accuracyTable.row("followed", endTime=0.1, error=0.01, cpuSeconds=0.012, shape="cpGIMP", deltaT=0.0005,
+        rows = [errorTable.row("plain", endTime=0.1, error=0.05, cpuSeconds=0.01),
+                errorTable.row("followed", endTime=0.1, error=0.01, cpuSeconds=0.012, shape="cpGIMP", deltaT=0.0005,
                                   courant=0.4237),
-                accuracyTable.row("slow", endTime=0.1, error=0.004, cpuSeconds=1000, deltaT=1e-6, courant=0.0008474),
-                accuracyTable.row("unresolved", endTime=0.1, error=0, cpuSeconds=0.001, stressUpdate="USF",
+                errorTable.row("slow", endTime=0.1, error=0.004, cpuSeconds=1000, deltaT=1e-6, courant=0.0008474),
+                errorTable.row("unresolved", endTime=0.1, error=0, cpuSeconds=0.001, stressUpdate="USF",
                                   referenceError=0.5),
-                accuracyTable.row("fine", endTime=0.1, error=0.002, cpuSeconds=0.05, cellSize=0.13333333333333333,
+                errorTable.row("fine", endTime=0.1, error=0.002, cpuSeconds=0.05, cellSize=0.13333333333333333,
                                   referenceError=1e-4),
-                accuracyTable.row("fast", endTime=0.1, error="", cpuSeconds="", status="failed"),
-                accuracyTable.row("pressed", endTime=0.1, errorMeasure="basePressure", error=0.3, cpuSeconds=0.01)]
-        accuracyTable.write(self.case, rows)
+                errorTable.row("fast", endTime=0.1, error="", cpuSeconds="", status="failed"),
+                errorTable.row("pressed", endTime=0.1, errorMeasure="basePressure", error=0.3, cpuSeconds=0.01)]
+        errorTable.write(self.case, rows)
 
     def test_within_error_takes_the_cheapest(self):
         self.run_utility("mpmSolve", "-withinError", "0.01")

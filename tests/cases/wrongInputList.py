@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-import accuracyTable
+import errorTable
 
 
 @dataclass
@@ -124,7 +124,7 @@ SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Poi
 
 def measured(*rows):
     """postProcessing/accuracyCost.csv with these rows."""
-    return lambda case: accuracyTable.write(case, rows)
+    return lambda case: errorTable.write(case, rows)
 
 
 GROUPS = [
@@ -153,20 +153,20 @@ GROUPS = [
         Entry("a wish without a table to choose from", "mpmSolve -withinError 0.01"),
         Entry("a measure without a table", "mpmSolve -dry-run -errorMeasure runOut"),
         Entry("a measure that is not in the table", "mpmSolve -withinError 0.01 -errorMeasure runout",
-              measured(accuracyTable.row("a"))),
-        Entry("an error no row has", "mpmSolve -withinError 1e-6", measured(accuracyTable.row("a"))),
+              measured(errorTable.row("a"))),
+        Entry("an error no row has", "mpmSolve -withinError 1e-6", measured(errorTable.row("a"))),
         Entry("an error only another seeding has", "mpmSolve -withinError 0.01",
-              measured(accuracyTable.row("a"), accuracyTable.row("b", cellSize="0.1333333333333333", error=0.009))),
+              measured(errorTable.row("a"), errorTable.row("b", cellSize="0.1333333333333333", error=0.009))),
         Entry("a table of other seedings", "mpmSolve -withinError 0.1",
-              measured(accuracyTable.row("a", particlesPerCell=3))),
+              measured(errorTable.row("a", particlesPerCell=3))),
         Entry("a table in which nothing was done", "mpmSolve -withinError 0.1",
-              measured(accuracyTable.row("a", status="failed", error=""))),
-        Entry("a table of another run", "mpmSolve -withinError 0.1", measured(accuracyTable.row("a", endTime=1))),
+              measured(errorTable.row("a", status="failed", error=""))),
+        Entry("a table of another run", "mpmSolve -withinError 0.1", measured(errorTable.row("a", endTime=1))),
         Entry("a table of another version", "mpmSolve -withinError 0.1",
-              measured(accuracyTable.row("a", version="0.0.1 0123456789, native"))),
+              measured(errorTable.row("a", version="0.0.1 0123456789, native"))),
         Entry("a table that is none", "mpmSolve -withinError 0.1",
               write("postProcessing/accuracyCost.csv", "a table\n")),
-        Entry("a row that is no row", "mpmSolve -withinError 0.1", measured(accuracyTable.row("a", cellSize="fine"))),
+        Entry("a row that is no row", "mpmSolve -withinError 0.1", measured(errorTable.row("a", cellSize="fine"))),
         Entry("a target that is the case", "splitParticles -target ."),
         Entry("a law nobody wrote", "driveLaw -law constant/none -path oedometer"),
         Entry("a path that is none", "driveLaw -law constant/materialProperties -path biaxial"),
@@ -175,6 +175,8 @@ GROUPS = [
         Entry("more steps than anyone waits for", "driveLaw -law constant/law -path oedometer",
               write("constant/law", "law linearElastic; E 1e6; nu 0.3; test { steps 1000000000000; }\n")),
         Entry("nothing to check", "checkIntegration"),
+        Entry("two things to check at once", "checkIntegration -law -time"),
+        Entry("a time to check that is none", "checkIntegration -time soon"),
         Entry("a shape that does not exist", "benchmarkStep -shape cubic"),
         Entry("a number of particles that is none", "benchmarkStep -particles few"),
     ]),
@@ -287,7 +289,7 @@ GROUPS = [
         solve("a body force out of the plane", write(FORCE, 'value (0 0 "x");\n')),
         solve("a body force without its value", write(FORCE, "constants { A 1; }\n")),
         solve("a constant that is a variable", write(FORCE, 'value ("t" 0); constants { t 1; }\n')),
-        solve("a constant that is no number", write(FORCE, 'value ("A" 0); constants { A one; }\n')),
+        solve("a constant of a later one", write(FORCE, 'value ("A" 0); constants { A "2*B"; B 1; }\n')),
         solve("a field that does not exist", append(CONTROL, "fields (referencePositon);\n")),
         solve("a time step beyond the stability limit", edit(CONTROL, "1e-3;", "4e-3;")),
         solve("stress last at this time step", edit(SCHEMES, "MUSL;           //", "USL;           //")),
@@ -325,6 +327,17 @@ GROUPS = [
         Entry("an accuracy that is none", "accuracyCost -within 0", write(COST, MEASURE), seeded=False),
         Entry("half a row at a time", "accuracyCost -threads 0.5", write(COST, MEASURE), seeded=False),
         Entry("steps that are none", "checkIntegration -law", edit(CHECK, "(1 2 4 8 16 32 64 128 256 512)", "(1 2 0)")),
+        Entry("time steps that grow", "checkIntegration -time", edit(CHECK, "(0.4 0.2 0.1)", "(0.1 0.2)")),
+        Entry("a scheme of time that does not exist", "checkIntegration -time",
+              edit(CHECK, "// schemes  (USL MUSL);", "schemes (USL RK5);")),
+        Entry("a scheme of time the case cannot run", "checkIntegration -time",
+              edit(CHECK, "// schemes  (USL MUSL);", "schemes (RK4);")),
+        Entry("an exact solution with a name nobody knows", "checkIntegration -time",
+              edit(CHECK, "// schemes  (USL MUSL);", 'exact { displacement ("A*sin(X)" 0); }')),
+        Entry("a window of no length", "checkIntegration -time", edit(CHECK, "window      0.05;", "window 0;")),
+        Entry("a spin that is no number", "checkIntegration -law", edit(CHECK, "spin        1.2;", "spin fast;")),
+        Entry("a tolerance of sub-steps beyond its bounds", "checkIntegration -law",
+              edit(CHECK, "{ tolerance 1e-4; } ", "{ tolerance 2; } ")),
         Entry("a path without its stress", "checkIntegration -law",
               edit(CHECK, "startStress (-40e3 -60e3 -48e3 0 0 0);", "")),
     ]),

@@ -98,6 +98,7 @@ TEST_CASE("seconds add up: start, particle-steps, rows, states")
     REQUIRE(p.splitOnce);
     CHECK(p.splitOnce->particles == 96);
     CHECK(p.splitOnce->total.cpu == Approx(1 + 4 * (2.4 + 3)));
+    CHECK(p.least.cpu == p.most.cpu);
     CHECK(p.splitCap->particles == 1000); // 24 4^3 are more than maxParticles
     rule.maxParticles = 1000000;
     describeState(p, state, rule);
@@ -107,6 +108,28 @@ TEST_CASE("seconds add up: start, particle-steps, rows, states")
     describeState(p, state, rule);
     CHECK(p.splitOnce->particles == 24);
     CHECK(p.splitCap->particles == 24);
+}
+
+TEST_CASE("what may get dearer makes a range, and the prediction is its middle")
+{
+    const auto state = scenes::seedBlock({.n = {6, 4, 1}, .spacing = 0.5, .h = 1, .cells = {5, 5, 1}});
+    CostPrediction p;
+    p.count = {100, 0, 10, false};
+    p.rehearsal.particleStep.median = {1e-3, 1e-3};
+    p.rehearsal.row = {0.1, 0.1};
+    describeState(p, state, std::nullopt);
+    p.rehearsal.wideParticleStep = Spread{{2e-3, 0.5e-3}, {}, {}};
+    addUp(p);
+    CHECK(p.least.cpu == Approx(2.4 + 1));
+    CHECK(p.most.cpu == Approx(4.8 + 1));
+    CHECK(p.total.cpu == Approx(3.6 + 1));
+    CHECK(p.most.wall == Approx(2.4 + 1)); // never less than as it is
+    p.mostSteps = 150;
+    addUp(p);
+    CHECK(p.most.cpu == Approx(1.5 * (4.8 + 1))); // rows come with steps
+    p.rehearsal.wideParticleStep.reset();
+    addUp(p);
+    CHECK(p.total.cpu == Approx(1.25 * (2.4 + 1)));
 }
 
 TEST_CASE("a body falls through its own height along gravity")

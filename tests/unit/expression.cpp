@@ -89,19 +89,21 @@ TEST_CASE("every mistake is told with its place and what is allowed")
     const std::string start = "constant/bodyForce:4: value: found ";
     CHECK(message("2*expp(x)") == start + "'\"2*expp(x)\"', wrong at 'expp', an unknown name (did you mean 'exp'?); "
                                           "allowed x, y, X, Y, t, pi and functions, other names in constants { }");
-    CHECK(message("amplitud*t", {{"amplitude", 1}}).find("(did you mean 'amplitude'?); allowed x, y, X, Y, t, pi, "
-                                                          "amplitude and functions") != std::string::npos);
-    CHECK(message("Z") .find("wrong at 'Z', an unknown name") != std::string::npos); // 2D knows no Z
+    CHECK(message("amplitud*t", {{"amplitude", 1}})
+              .find("(did you mean 'amplitude'?); allowed x, y, X, Y, t, pi, "
+                    "amplitude and functions") != std::string::npos);
+    CHECK(message("Z").find("wrong at 'Z', an unknown name") != std::string::npos); // 2D knows no Z
     CHECK(message("_pi").find("an unknown name") != std::string::npos);
-    for (const std::string text : {"sin(x", "x +", "", "x y", "2 x", "sin()", "atan2(x)", "(x))", "x @ y", "\"x\"", "x;", "3..5",
-                                   "x ? 1", "?:", "^"})
+    for (const std::string text : {"sin(x", "x +", "", "x y", "2 x", "sin()", "atan2(x)", "(x))", "x @ y", "\"x\"",
+                                   "x;", "3..5", "x ? 1", "?:", "^"})
     {
         INFO(text);
         const auto found = message(text);
         CHECK(found.substr(0, start.size()) == start);
         CHECK(found.find("llowed") != std::string::npos);
     }
-    CHECK(message("x = 3").find("with '=', allowed is a formula: it has a value and assigns none") != std::string::npos);
+    CHECK(message("x = 3").find("with '=', allowed is a formula: it has a value and assigns none") !=
+          std::string::npos);
     CHECK(message("x == 3") == "nothing");
     CHECK(message("x, y").find("2 values separated by ','; allowed is one") != std::string::npos);
     CHECK(message(std::string(1001, '1') + "+x").find("1003 characters; allowed are 1000") != std::string::npos);
@@ -111,14 +113,16 @@ TEST_CASE("every mistake is told with its place and what is allowed")
 TEST_CASE("vectors of formulas in a dictionary, with constants")
 {
     const auto d = Dictionary::fromText("value (\"A*sin(pi*X)\" 1e-3 0); constants { A 0.05; }");
-    const auto v = readVectorExpression(d, "value", "", unit::acceleration, 2, variables, readConstants(d, variables), true);
+    const auto v =
+        readVectorExpression(d, "value", "", unit::acceleration, 2, variables, readConstants(d, variables), true);
     CHECK(v[0].evaluate({0, 0, 0.5, 0, 0}) == 0.05);
     CHECK(v[1].number() == 1e-3);
     CHECK_NOTHROW(d.rejectUnread());
     CHECK(messageOfDictionary("value (\"x\" 0);") == "nothing");
     CHECK(messageOfDictionary("value (\"x\" 0);", 3) ==
           "constant/bodyForce:1: value: found 2 components, allowed 3, (x y z), numbers or formulas in double quotes");
-    CHECK(messageOfDictionary("value (0 0 \"x\");") == "constant/bodyForce:1: value: found z component x, allowed 0 in 2D");
+    CHECK(messageOfDictionary("value (0 0 \"x\");") ==
+          "constant/bodyForce:1: value: found z component x, allowed 0 in 2D");
     CHECK(messageOfDictionary("value (0 0 1 2);").find("found 4 components") != std::string::npos);
     CHECK(messageOfDictionary("value 3;").find("allowed a list ( ... ) of numbers or formulas in double quotes") !=
           std::string::npos);
@@ -129,27 +133,30 @@ TEST_CASE("vectors of formulas in a dictionary, with constants")
     CHECK(messageOfDictionary("value (0 0); constants { sin 1; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { pi 3; }").find("another name") != std::string::npos);
     CHECK(messageOfDictionary("value (0 0); constants { a-b 3; }").find("a name of letters") != std::string::npos);
-    CHECK(messageOfDictionary("value (0 0); constants { A two; }").find("1: constants.A: found '\"two\"', wrong at 'two', "
-                                                                          "an unknown name") != std::string::npos);
+    CHECK(messageOfDictionary("value (0 0); constants { A two; }")
+              .find("1: constants.A: found '\"two\"', wrong at 'two', "
+                    "an unknown name") != std::string::npos);
 }
 
 TEST_CASE("constants may be formulas of the variables and of those before them")
 {
-    const auto d = Dictionary::fromText("value (\"b*X/R\" \"b*Y/R\" 0);\nconstants { A 0.05; R \"sqrt(X^2 + Y^2)\"; late "
-                                        "\"A*t\"; s \"A*sin(pi*x)\"; b \"-s*R\"; }");
+    const auto d =
+        Dictionary::fromText("value (\"b*X/R\" \"b*Y/R\" 0);\nconstants { A 0.05; R \"sqrt(X^2 + Y^2)\"; late "
+                             "\"A*t\"; s \"A*sin(pi*x)\"; b \"-s*R\"; }");
     const auto constants = readConstants(d, variables);
     const auto v = readVectorExpression(d, "value", "", unit::acceleration, 2, variables, constants, true);
     const double s = 0.05 * std::sin(std::numbers::pi * 2), R = std::sqrt(0.25 * 0.25 + 0.5 * 0.5);
     CHECK(v[0].evaluate({2, 3, 0.25, 0.5, 0.1}) == -s * R * 0.25 / R);
     CHECK(v[1].evaluate({2, 3, 0.25, 0.5, 0.1}) == -s * R * 0.5 / R);
     CHECK(v[0].uses("x"));
-    CHECK(v[0].uses("Y")); // in R
+    CHECK(v[0].uses("Y"));       // in R
     CHECK_FALSE(v[0].uses("t")); // only `late` does
     CHECK_FALSE(v[0].uses("y"));
     CHECK(messageOfDictionary("value (\"B\" 0);\nconstants { A \"B + 1\";\nB 2; }").substr(0, 60) ==
           "constant/bodyForce:2: constants.A: found '\"B + 1\"', wrong at 'B', an unknown name"s.substr(0, 60));
-    CHECK(messageOfDictionary("value (\"A\" 0); constants { A \"t +\"; }").find("constants.A: found '\"t +\"', wrong at its "
-                                                                                "end") != std::string::npos);
+    CHECK(messageOfDictionary("value (\"A\" 0); constants { A \"t +\"; }")
+              .find("constants.A: found '\"t +\"', wrong at its "
+                    "end") != std::string::npos);
 }
 
 TEST_CASE("the first value that is not finite is named, and threads get the same bits")
@@ -167,8 +174,8 @@ TEST_CASE("the first value that is not finite is named, and threads get the same
     for (auto& other : others)
         threads.emplace_back([&] {
             for (Index first = 0; first < 1000; first += 50)
-                e.evaluate({&x[std::size_t(first)], &y[std::size_t(first)], nullptr, nullptr, &t[std::size_t(first)]}, 50,
-                           &other[std::size_t(first)]);
+                e.evaluate({&x[std::size_t(first)], &y[std::size_t(first)], nullptr, nullptr, &t[std::size_t(first)]},
+                           50, &other[std::size_t(first)]);
         });
     for (auto& thread : threads)
         thread.join();

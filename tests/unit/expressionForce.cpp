@@ -96,6 +96,40 @@ TEST_CASE("a constant force by formula moves a body as gravity does, and its wor
     }
 }
 
+// The centre of equal masses under b = - k (x - x0) + sin(t) follows the recursion of the step itself, whatever the
+// body does inside: any force taken at another place or time than that of its step shows.
+TEST_CASE("forces act at the place and time of their step")
+{
+    for (const auto update : {stepping::StressUpdate::USF, stepping::StressUpdate::USL, stepping::StressUpdate::MUSL})
+    {
+        auto s = block(4);
+        stepping::Scene scene;
+        scene.materials = {scenes::elastic(1e6, 0.3)};
+        scene.stressUpdate = update;
+        scene.bodyForce = force("value (\"sin(100*t) - k*(x - 2.2)\" \"k*(1.4 - y)\"); constants { k 400; }");
+        auto stepper = cases::makeStepper("uGIMP", s, scene);
+        stepping::beginLedger(s, scene.materials);
+        const double dt = 1e-3;
+        double x = 1.5, y = 1.5, u = 0, v = 0;
+        for (int i = 0; i < 100; ++i)
+        {
+            u += dt * (std::sin(100 * (i * dt)) - 400 * (x - 2.2));
+            v += dt * 400 * (1.4 - y);
+            x += dt * u;
+            y += dt * v;
+            stepper->step(dt);
+        }
+        double centre[2] = {0, 0};
+        for (std::size_t i = 0; i < 16; ++i)
+            for (std::size_t a = 0; a < 2; ++a)
+                centre[a] += s.particles.x[a][i] / 16;
+        CHECK(centre[0] == Approx(x).epsilon(1e-11));
+        CHECK(centre[1] == Approx(y).epsilon(1e-11));
+        const auto t = stepping::totals(s, scene.materials);
+        CHECK(std::abs(stepping::residual(s.ledger, t.strainEnergy)) < 1e-10 * std::abs(s.ledger.kineticEnergy + 1));
+    }
+}
+
 TEST_CASE("a value that is not finite ends the run with particle, place and time")
 {
     auto s = block();
@@ -132,10 +166,11 @@ TEST_CASE("reference positions: given to a state of step 0, demanded of a later 
     auto late = block();
     late.step = 5;
     late.time = 0.25;
-    CHECK_THROWS_WITH(cases::provideReference(late, *wanted),
-                      "system/controlDict:1: fields: referencePosition: found a state at time 0.25 s without "
-                      "/particles/referencePosition, where its particles started; allowed: a run from time 0 (startFrom "
-                      "firstTime, -overwrite)");
+    CHECK_THROWS_WITH(
+        cases::provideReference(late, *wanted),
+        "system/controlDict:1: fields: referencePosition: found a state at time 0.25 s without "
+        "/particles/referencePosition, where its particles started; allowed: a run from time 0 (startFrom "
+        "firstTime, -overwrite)");
     CHECK_FALSE(late.particles.hasX());
     CHECK_FALSE(cases::readFields(Dictionary::fromText("endTime 1;")));
     CHECK_THROWS_WITH(cases::readFields(Dictionary::fromText("fields (referencPosition);", "system/controlDict")),

@@ -8,8 +8,8 @@
 #include "constitutive/smallStrain.hpp"
 #include "support/scenes.hpp"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <Eigen/Dense>
 #include <numbers>
 #include <random>
 
@@ -140,8 +140,8 @@ TEST_CASE("closed forms: confined compression, and pure rotation without stress"
         CHECK(neo.stress(1, 1) == Approx((mu * (2 * e + e * e) + lambda * log) / l).epsilon(1e-14));
         CHECK(neo.stress(0, 0) == Approx(lambda * log / l).epsilon(1e-14));
         CHECK(neo.stress(2, 2) == neo.stress(0, 0));
-        CHECK(neo.energy == Approx(mu * (e + e * e / 2 - log) + lambda / 2 * log * log)
-                                .epsilon(std::abs(e) < 1e-6 ? 1e-6 : 1e-12));
+        CHECK(neo.energy ==
+              Approx(mu * (e + e * e / 2 - log) + lambda / 2 * log * log).epsilon(std::abs(e) < 1e-6 ? 1e-6 : 1e-12));
         CHECK(hencky.stress(1, 1) == Approx(M * log / l).epsilon(1e-13));
         CHECK(hencky.stress(0, 0) == Approx(lambda * log / l).epsilon(1e-13));
         CHECK(hencky.energy == Approx(M * log * log / 2).epsilon(1e-13));
@@ -264,9 +264,11 @@ TEMPLATE_TEST_CASE_SIG("the wave factor bounds the acoustic tensor", "", ((int d
 TEST_CASE("the budget of a vibrating block closes to round-off, and the scheme keeps its energy")
 {
     for (const auto& law : laws({1e5, 0.3}))
-        for (const auto update : {stepping::StressUpdate::USF, stepping::StressUpdate::USL, stepping::StressUpdate::MUSL})
+        for (const auto update :
+             {stepping::StressUpdate::USF, stepping::StressUpdate::USL, stepping::StressUpdate::MUSL})
         {
-            auto s = scenes::seedBlock({.corner = {1, 1, 0}, .n = {6, 6, 1}, .spacing = 0.25, .h = 0.5, .cells = {7, 7, 1}});
+            auto s =
+                scenes::seedBlock({.corner = {1, 1, 0}, .n = {6, 6, 1}, .spacing = 0.25, .h = 0.5, .cells = {7, 7, 1}});
             auto& p = s.particles;
             for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
             {

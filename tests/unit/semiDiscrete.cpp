@@ -1,6 +1,8 @@
 // The semi-discrete equations: balances of one evaluation, order of particles, strays, what is refused.
 #include "case/makeStepper.hpp"
+#include "constitutive/hencky.hpp"
 #include "constitutive/mohrCoulomb.hpp"
+#include "constitutive/neoHookean.hpp"
 #include "support/scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -124,6 +126,73 @@ TEST_CASE("one evaluation keeps the balances of energy, momentum and volume")
                 CHECK(force[a] == Approx(walls).epsilon(1e-10));
             }
         }
+}
+
+TEST_CASE("strain energy grows by the power of stress, and of rate laws by what finite strain adds")
+{
+    using constitutive::ElasticModuli;
+    const std::vector<std::shared_ptr<const constitutive::Law>> laws = {
+        std::make_shared<constitutive::LinearElastic>(ElasticModuli{E, 0.3}),
+        std::make_shared<constitutive::NeoHookean>(ElasticModuli{E, 0.3}),
+        std::make_shared<constitutive::Hencky>(ElasticModuli{E, 0.3})};
+    for (const int dim : {2, 3})
+        for (const auto& law : laws)
+        {
+            auto what = scene();
+            what.materials[0].law = law;
+            const auto s = randomBlock(dim);
+            auto equations = cases::makeSemiDiscrete("cubicBSpline", s, what);
+            std::vector<double> y, rate, moved;
+            equations->pack(s, y);
+            rate.resize(y.size());
+            semiDiscrete::Powers powers;
+            equations->rates(0, y.data(), rate.data(), &powers);
+            const auto energyAt = [&](double t) {
+                moved = y;
+                for (std::size_t i = 0; i < y.size(); ++i)
+                    moved[i] += t * rate[i];
+                auto copy = s;
+                return equations->unpack(moved.data(), copy).strainEnergy;
+            };
+            const double dt = 1e-5, change = (energyAt(dt) - energyAt(-dt)) / (2 * dt);
+            INFO(dim << "D " << law->name());
+            CHECK(change == Approx(powers.stress + powers.finiteStrain).epsilon(1e-5));
+            CHECK((powers.finiteStrain == 0) == (law->hyperelastic() != nullptr));
+            CHECK(equations->size() ==
+                  std::size_t(s.particles.size()) *
+                      std::size_t(2 * dim + dim * dim + (law->hyperelastic() ? 0 : stressComponents(dim))));
+        }
+}
+
+TEST_CASE("a periodic axis has no ends: a block moved round it has the same rates")
+{
+    auto s = randomBlock(2);
+    s.grid.periodic[0] = true;
+    auto what = scene();
+    what.bodyForce.reset();
+    what.walls.pop_back();
+    auto equations = cases::makeSemiDiscrete("cubicBSpline", s, what);
+    std::vector<double> y, rate, round;
+    equations->pack(s, y);
+    rate.resize(y.size());
+    round.resize(y.size());
+    equations->rates(0, y.data(), rate.data());
+    const std::size_t n = std::size_t(s.particles.size());
+    for (const double shift : {7.0, 9.0, -20.0}) // whole cells; a period is 9 of them
+    {
+        auto moved = y;
+        for (std::size_t i = 0; i < n; ++i)
+            moved[i] += shift;
+        equations->rates(0, moved.data(), round.data());
+        for (std::size_t column = 0; column < y.size() / n; ++column)
+        {
+            double largest = 0;
+            for (std::size_t i = column * n; i < (column + 1) * n; ++i)
+                largest = std::max(largest, std::abs(rate[i]));
+            for (std::size_t i = column * n; i < (column + 1) * n; ++i)
+                REQUIRE(round[i] == Approx(rate[i]).margin(1e-11 * largest));
+        }
+    }
 }
 
 TEST_CASE("rates belong to particles, whatever their order, and follow them out of their tiles")

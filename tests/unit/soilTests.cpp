@@ -1,5 +1,6 @@
 /// Soil tests at a single point: what theory says of them, how they are set up, and what is refused.
 #include "constitutive/soilTests.hpp"
+#include "constitutive/hencky.hpp"
 #include "constitutive/linearElastic.hpp"
 #include "constitutive/mohrCoulomb.hpp"
 #include "support/temporaryFolder.hpp"
@@ -188,4 +189,24 @@ TEST_CASE("laws are made from their dictionaries, mistakes named with their line
     CHECK_THROWS_WITH(refused(sand + "cohesion -1; frictionAngle 30;"), Contains("soil:2") && Contains(">= 0"));
     CHECK_THROWS_WITH(refused(sand + "cohesion 0; frictionAngle 90;"), Contains("[0, 90)"));
     CHECK_THROWS_WITH(refused(sand + "cohesion 0; frictionAngle 30; dilationAngle 31;"), Contains("[0, 30]"));
+}
+
+TEST_CASE("hyperelastic laws: logarithmic strains from F = I, which reach the stress at the start")
+{
+    const Hencky law({1e6, 0.3});
+    for (const auto& point : runSoilTest(law, setUp("maxStrain 0.4; steps 20;", "oedometer", 0.3)))
+        CHECK(point.stress[1] ==
+              Approx(law.waveModulus() * point.strain[1] * std::exp(-point.strain[1])).epsilon(1e-12).margin(1e-9));
+    const auto points = runSoilTest(law, setUp("confiningStress 50e3; steps 20;", "triaxial", 0.3));
+    for (const auto& point : points)
+    {
+        CHECK(point.stress[0] == Approx(-50e3).epsilon(1e-11));
+        CHECK(point.stress[2] == point.stress[0]);
+    }
+    const double e = points.front().strain[1]; // all round: J sigma = 3 K e
+    CHECK(3 * law.bulkModulus() * e * std::exp(-3 * e) == Approx(-50e3).epsilon(1e-11));
+    CHECK(points.back().strain[1] == Approx(e - 0.05).epsilon(1e-12));
+    CHECK_THROWS_WITH(runSoilTest(law, setUp("confiningStress 1e9;", "triaxial", 0.3)), Contains("found no strain"));
+    const Dictionary d = Dictionary::fromText("test { startStress (1 0 0 0 0 0); }", "soil");
+    CHECK_THROWS_WITH(readSoilTest(d, "path.csv", 0.3, true), Contains("soil:1: test.startStress: found a stress"));
 }

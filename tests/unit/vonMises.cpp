@@ -1,12 +1,12 @@
 // von Mises: the exact solution of Krieg & Krieg, plane strain and 3D, work and energy, objectivity, wrong parameters.
+#include "constitutive/vonMises.hpp"
 #include "base/csvTable.hpp"
 #include "constitutive/linearElastic.hpp"
 #include "constitutive/singlePoint.hpp"
-#include "constitutive/vonMises.hpp"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <Eigen/Dense>
 #include <random>
 
 using namespace mpm;
@@ -129,8 +129,7 @@ TEST_CASE("inside the surface elastic to the last bit; outside the mean stress s
         double work = 0;
         for (int k = 0; k < 6; ++k)
             work += (k < 3 ? 1 : 2) * 0.5 * (stress[k] + out.stress[k]) * strain[k];
-        CHECK(work == Approx(energy(law, out.stress) - energy(law, stress) + out.plasticWork)
-                          .margin(1e-12 * 20e3));
+        CHECK(work == Approx(energy(law, out.stress) - energy(law, stress) + out.plasticWork).margin(1e-12 * 20e3));
         const Matrix3d R =
             Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().matrix();
         const auto turn = [&](const SymmetricTensor& t) {

@@ -181,6 +181,48 @@ TEST_CASE("von Mises as a law: rate equations against Krieg and Krieg's closed f
                       Contains("start stress"));
 }
 
+TEST_CASE("laws in sub-steps: one step of turning axes is as good as its tolerance, at a price that is told")
+{
+    // the paths of `cases` whose rates are a constant rate in axes that turn: 35 % and 11 % in one plain step
+    struct Turning
+    {
+        const Case& of;
+        double spin;
+    };
+    for (const auto& [of, spin] : {Turning{cases[0], 1.2}, Turning{cases[2], 1.0}})
+    {
+        std::array<Harmonic, 6> components{}, constant{};
+        components[0] = {of.xx, of.w, false};
+        components[1] = {of.yy, of.w, false};
+        components[3] = {of.xy, of.w, true};
+        constant[0] = {of.xx, 0, false};
+        constant[1] = {of.yy, 0, false};
+        const StrainPath path = StrainPath::turning(constant, spin, 1);
+        const auto known = StrainPath::harmonic(components, 1).increment(0, 0.1, 0.7);
+        CHECK(distance(path.increment(0, 0.1, 0.7), known) <= 1e-15);
+        const RateSolution exact = integrateRates(of.material, of.start, path);
+        const MohrCoulomb plain(of.material);
+        double before = 1;
+        for (const double tolerance : {1e-3, 1e-4, 1e-5})
+        {
+            const auto rows = judgeSubsteps(MohrCoulomb(of.material, constitutive::Substep{tolerance}), plain, of.start,
+                                            path, exact, {1, 4, 64});
+            INFO(of.name << ", tolerance " << tolerance);
+            for (const auto& row : rows)
+            {
+                std::printf("%-32s tolerance %.0e, %2d steps: error %.2e, %6.1f law calls a step\n", of.name.c_str(),
+                            tolerance, row.steps, row.final, row.calls);
+                CHECK(row.final <= tolerance * (row.steps == 1 ? 1 : 3)); // each step's error is held, their sum is not
+                CHECK(std::abs(row.yield) <= 1e-13);
+            }
+            CHECK(rows[0].calls > rows[2].calls); // short steps need fewer parts
+            CHECK(rows[0].final < before);
+            before = rows[0].final;
+        }
+        CHECK(judgeReturnMap(plain, of.start, path, exact, {1}).front().final > 0.1);
+    }
+}
+
 TEST_CASE("the ODE solver finds events in their direction and starts anew")
 {
     OdeSolver ode(1, 1e-12, 1e-14, [](double t, const double*, double* rate) { rate[0] = std::cos(t); });

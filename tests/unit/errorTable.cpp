@@ -1,5 +1,5 @@
 // The table of accuracyCost as mpmSolve reads it: which rows count, what error a setting will have, what is refused.
-#include "case/accuracyTable.hpp"
+#include "case/errorTable.hpp"
 #include "base/error.hpp"
 #include "case/pickSetting.hpp"
 #include "support/temporaryFolder.hpp"
@@ -26,10 +26,10 @@ std::string line(const std::string& name, const std::string& h, const std::strin
            "," + error + ",1e-6,2,1e6,80,1,here,0.1.0,\n";
 }
 
-AccuracyTable table(const tests::TemporaryFolder& folder, const std::string& rows, const std::string& measure = {})
+ErrorTable table(const tests::TemporaryFolder& folder, const std::string& rows, const std::string& measure = {})
 {
     std::ofstream(folder / "accuracyCost.csv", std::ios::binary) << header << rows;
-    return AccuracyTable(folder / "accuracyCost.csv", measure);
+    return ErrorTable(folder / "accuracyCost.csv", measure);
 }
 
 RunSetting plain(double h, const std::string& shape = "uGIMP")
@@ -113,10 +113,10 @@ TEST_CASE("words a row changes, and those it need not")
 TEST_CASE("mistakes in a table have their place")
 {
     const tests::TemporaryFolder folder;
-    CHECK_THROWS_WITH(AccuracyTable(folder / "none.csv"), Contains("run accuracyCost in this case first"));
+    CHECK_THROWS_WITH(ErrorTable(folder / "none.csv"), Contains("run accuracyCost in this case first"));
     CHECK_THROWS_WITH(table(folder, line("a", "small", "uGIMP", "0.1")), Contains("accuracyCost.csv:2: cellSize"));
     CHECK_THROWS_WITH(table(folder, line("a", "0", "uGIMP", "0.1")), Contains("a number > 0"));
     CHECK_THROWS_WITH(table(folder, line("a", "0.1", "uGIMP", "-0.1")), Contains("a number >= 0"));
     std::ofstream(folder / "other.csv") << "row,cellSize\na,0.1\n";
-    CHECK_THROWS_WITH(AccuracyTable(folder / "other.csv"), Contains("errorMeasure"));
+    CHECK_THROWS_WITH(ErrorTable(folder / "other.csv"), Contains("found no column shape"));
 }

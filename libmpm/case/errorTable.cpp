@@ -1,5 +1,6 @@
-#include "case/accuracyTable.hpp"
+#include "case/errorTable.hpp"
 
+#include "base/csvTable.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -156,12 +157,14 @@ std::string RunSetting::describe() const
                        cellSize, particlesPerCell, deltaT, courant);
 }
 
-AccuracyTable::AccuracyTable(const std::filesystem::path& file, const std::string& measure) : file_(file)
+ErrorTable::ErrorTable(const std::filesystem::path& file, const std::string& measure) : file_(file)
 {
     if (!std::filesystem::exists(file))
         throw InputError({file.string()},
                          "found no such table; run accuracyCost in this case first (system/accuracyCostDict)");
     const auto table = CsvTable::read(file);
+    for (const auto* column : {"row", "cellSize", "shape", "errorMeasure", "error", "cpuSeconds"})
+        table.column(column); // told even where no row asks
     std::vector<std::string> measures;
     for (const auto& line : table.rows())
     {
@@ -185,7 +188,7 @@ AccuracyTable::AccuracyTable(const std::filesystem::path& file, const std::strin
     }
 }
 
-const AccuracyRow* AccuracyTable::nearest(const RunSetting& setting) const
+const AccuracyRow* ErrorTable::nearest(const RunSetting& setting) const
 {
     const AccuracyRow* best = nullptr;
     for (const auto& row : rows_)
@@ -194,7 +197,7 @@ const AccuracyRow* AccuracyTable::nearest(const RunSetting& setting) const
     return best;
 }
 
-std::optional<ExpectedError> AccuracyTable::expect(const RunSetting& setting) const
+std::optional<ExpectedError> ErrorTable::expect(const RunSetting& setting) const
 {
     const AccuracyRow* near = nearest(setting);
     if (!near)

@@ -8,8 +8,6 @@
 /// version; others are passed over. Rows whose status is not `done` say nothing about accuracy.
 ///
 /// Errors: a missing file or column, a cell that is no number, a measure that is not in the table.
-#include "base/csvTable.hpp"
-
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -58,11 +56,11 @@ struct ExpectedError
     std::string basis;           ///< where it comes from
 };
 
-class AccuracyTable
+class ErrorTable
 {
   public:
     /// Rows that were done, of one measure (default: the first).
-    explicit AccuracyTable(const std::filesystem::path& file, const std::string& measure = {});
+    explicit ErrorTable(const std::filesystem::path& file, const std::string& measure = {});
 
     const std::filesystem::path& file() const { return file_; }
     const std::string& measure() const { return measure_; }
