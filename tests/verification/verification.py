@@ -151,7 +151,7 @@ class Verification(SceneCase):
             for study in studies:
                 for measure, errors in study.errors.items():
                     numbers = [Number(e, ".0e" if study.loose else ".2e", 1.5 if study.loose else 0.03) for e in errors]
-                    orders = ["diverges"] if study.loose else [[order_of(o) for o in study.orders(measure)]]
+                    orders = ["fails" if study.failed else "diverges"] if study.loose else [[order_of(o) for o in study.orders(measure)]]
                     fit = ["-"] if study.loose else [order_of(study.fit(measure))]
                     rows.append([study.label, measure, *numbers, *orders, *fit])
             columns = ["variant", "error"] + [f"{parameter} = {v:g}" for v in values] + ["orders", "fit"]

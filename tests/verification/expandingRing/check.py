@@ -48,8 +48,8 @@ def errors(shape, A):
     return of
 
 
-for A in (1e-4, AMPLITUDE):
-    for shape in ("uGIMP", "cpGIMP", "quadraticBSpline", "cubicBSpline"):
-        study = case.study(f"A = {A:g}, {shape}", "N", (4, 8, 16), errors(shape, A))
-        case.check_order(study, "displacement over A", 1.0)
+for A, shape, cells in ((1e-4, "uGIMP", (4, 8)), (1e-4, "cubicBSpline", (4, 8)), (AMPLITUDE, "cpGIMP", (4, 8, 16)),
+                        (AMPLITUDE, "uGIMP", (4, 8)), (AMPLITUDE, "quadraticBSpline", (4, 8)), (AMPLITUDE, "cubicBSpline", (4, 8))):
+    study = case.study(f"A = {A:g}, {shape}", "N", cells, errors(shape, A))
+    case.check_order(study, "displacement over A", 1.0)
 case.finish()
