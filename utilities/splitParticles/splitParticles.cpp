@@ -7,6 +7,7 @@
 #include "case/caseLock.hpp"
 #include "case/copyCase.hpp"
 #include "case/provenance.hpp"
+#include "case/readScene.hpp"
 #include "case/readSchemes.hpp"
 #include "case/writtenTimes.hpp"
 #include "output/stateFile.hpp"
