@@ -15,8 +15,6 @@
 /// Verified in tests/unit/cornerWeights.cpp and transferSchemes.cpp.
 #include "transfer/chunkWeights.hpp"
 
-#include <Eigen/Dense>
-
 namespace mpm::transfer
 {
 /// Calls visit(place in the window, N, lattice indices of the node) for all nodes of a lane.
@@ -72,35 +70,63 @@ void projectAffine(const Weights& w, const double (&mass)[lanes], const double (
         });
 }
 
+/// Inverse of a small symmetric matrix, by cofactors.
+template <int dim>
+void invertMoments(const double (&D)[dim][dim], double (&inverse)[dim][dim])
+{
+    if constexpr (dim == 2)
+    {
+        const double over = 1 / (D[0][0] * D[1][1] - D[0][1] * D[1][0]);
+        inverse[0][0] = D[1][1] * over;
+        inverse[1][1] = D[0][0] * over;
+        inverse[0][1] = inverse[1][0] = -D[0][1] * over;
+    }
+    else
+    {
+        const auto cofactor = [&](int i, int j) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+            return D[a][c] * D[b][d] - D[a][d] * D[b][c];
+        };
+        const double over = 1 / (D[0][0] * cofactor(0, 0) + D[0][1] * cofactor(0, 1) + D[0][2] * cofactor(0, 2));
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                inverse[j][i] = cofactor(i, j) * over;
+    }
+}
+
 /// APIC's C_p from nodal velocities (lanes 0 .. dim of a window packed for gradients).
 template <int dim, class Weights>
 void gatherAffine(const Weights& w, const HalfRecord* window, const double (&x)[dim][lanes],
                   const state::GridBox& grid, int count, const state::NodeBox& box, double (&C)[dim * dim][lanes])
 {
-    using Matrix = Eigen::Matrix<double, dim, dim>;
-    using Vector = Eigen::Matrix<double, dim, 1>;
     constexpr bool productOverAxes = requires { w.axis; };
     for (int l = 0; l < count; ++l)
     {
-        Matrix B = Matrix::Zero(), D = Matrix::Zero();
+        double B[dim][dim] = {}, D[dim][dim] = {}, inverse[dim][dim] = {};
         eachNode(w, l, box, [&](Index at, double N, const std::array<Index, dim>& node) {
-            Vector d, v;
+            double d[dim];
             for (int b = 0; b < dim; ++b)
-            {
                 d[b] = grid.origin[b] + grid.h * double(node[b]) - x[b][l];
-                v[b] = window[at][b];
-            }
-            B += N * v * d.transpose();
-            D += N * d * d.transpose();
+            for (int a = 0; a < dim; ++a)
+                for (int b = 0; b < dim; ++b)
+                {
+                    B[a][b] += N * window[at][a] * d[b];
+                    D[a][b] += N * d[a] * d[b];
+                }
         });
-        Matrix value;
         if constexpr (productOverAxes)
-            value = B * D.diagonal().cwiseInverse().asDiagonal();
+            for (int b = 0; b < dim; ++b)
+                inverse[b][b] = 1 / D[b][b];
         else
-            value = B * D.inverse();
+            invertMoments<dim>(D, inverse);
         for (int a = 0; a < dim; ++a)
             for (int b = 0; b < dim; ++b)
-                C[a * dim + b][l] = value(a, b);
+            {
+                double value = 0;
+                for (int k = 0; k < dim; ++k)
+                    value += B[a][k] * inverse[k][b];
+                C[a * dim + b][l] = value;
+            }
     }
 }
 } // namespace mpm::transfer
