@@ -17,6 +17,28 @@ double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double sm
     return !ignoresMass ? 0.85 : dim == 2 ? 1.2 : 1.0;
 }
 
+namespace
+{
+bool carriesAffineField(const Scene& scene)
+{
+    return scene.transfer == Transfer::APIC || scene.transfer == Transfer::TPIC;
+}
+} // namespace
+
+double methodCourant(int dim, bool ignoresMass, const Scene& scene, double smallestNodalMassFraction)
+{
+    if (scene.timeIntegration != TimeIntegration::symplecticEuler)
+        return rungeKuttaCourant(
+            scene.timeIntegration == TimeIntegration::RK4 ? RungeKuttaOrder::RK4 : RungeKuttaOrder::RK2, dim);
+    const double plain = criticalCourant(dim, ignoresMass, scene.stressUpdate, smallestNodalMassFraction);
+    if (scene.transfer == Transfer::FMPM)
+        return plain / std::sqrt(double(scene.transferOrder));
+    if (!carriesAffineField(scene))
+        return plain;
+    return ignoresMass ? std::min(plain, dim == 2 ? 0.75 : 0.62)
+                       : criticalCourant(dim, false, StressUpdate::USL, smallestNodalMassFraction);
+}
+
 double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials)
 {
     std::vector<bool> used(materials.size(), false);
@@ -31,21 +53,16 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 bool limitFollowsMass(const Scene& scene, bool ignoresMass)
 {
-    return scene.stressUpdate == StressUpdate::USL && !ignoresMass &&
-           scene.timeIntegration == TimeIntegration::symplecticEuler;
+    return !ignoresMass && scene.timeIntegration == TimeIntegration::symplecticEuler &&
+           (scene.stressUpdate == StressUpdate::USL || carriesAffineField(scene));
 }
 
 StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const Scene& scene, bool ignoresMass)
 {
     StabilityLimit limit;
     const int dim = state.particles.dim;
-    limit.courant = criticalCourant(dim, ignoresMass, scene.stressUpdate,
-                                    limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
-    if (scene.transfer == Transfer::FMPM)
-        limit.courant /= std::sqrt(double(scene.transferOrder));
-    if (scene.timeIntegration != TimeIntegration::symplecticEuler)
-        limit.courant = rungeKuttaCourant(
-            scene.timeIntegration == TimeIntegration::RK4 ? RungeKuttaOrder::RK4 : RungeKuttaOrder::RK2, dim);
+    limit.courant = methodCourant(dim, ignoresMass, scene,
+                                  limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
     limit.hats = !ignoresMass;
     return movedLimit(limit, fastestWave(state, scene.materials), state, stepper.largestSpeed());
 }

@@ -15,6 +15,12 @@
 /// dimension bear more: 0.65 to 0.75 with USL, 1.41 to 2.3 with USF and MUSL; blocks near incompressibility bear least,
 /// as shear and pressure modes share nodes.
 ///
+/// Transfers: XPIC bears what FLIP does. FMPM of order k applies at most k times the inverse of the lumped mass: C over
+/// sqrt(k). An affine field (APIC, TPIC) is lost on no second projection, so that USF and MUSL bear less, 0.75 (0.62 in
+/// 3D), and with hat functions their bound follows the mass, as that of USL does.
+///
+/// Runge-Kutta steps have bounds of their own (rungeKutta.hpp).
+///
 /// The linearised step knows no |v|. Impacts do: bodies close in at up to 2 |v|, and every cell face a particle crosses
 /// is a jump of nodal forces, least with GIMP and splines, most with hat functions. The factors are those with which
 /// random scenes up to twice the wave speed end within their energy budget (tests/stability/randomScenes).
@@ -26,6 +32,9 @@ namespace mpm::stepping
 {
 /// The bound C [-]. ignoresMass: the shape keeps its bound as nodes empty (all but hat functions).
 double criticalCourant(int dim, bool ignoresMass, StressUpdate update, double smallestNodalMassFraction);
+
+/// The bound C of a scene's method in `dim` dimensions. smallestNodalMassFraction matters where limitFollowsMass.
+double methodCourant(int dim, bool ignoresMass, const Scene& scene, double smallestNodalMassFraction);
 
 /// Fastest P wave of the materials in use [m/s].
 double fastestWave(const state::State& state, const std::vector<constitutive::Material>& materials);
@@ -39,7 +48,7 @@ struct StabilityLimit
     double deltaT = 0;    ///< bound of dt [s]
 };
 
-/// Does the bound change as particles move? (USL with hat functions.)
+/// Does the bound change as particles move? (Hat functions with USL, or with an affine field.)
 bool limitFollowsMass(const Scene& scene, bool ignoresMass);
 
 /// The limit of the state as it is. c_p is that of the materials at rest times sqrt(max det F): an expanded solid is

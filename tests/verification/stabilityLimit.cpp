@@ -220,7 +220,7 @@ TEST_CASE("free blocks in two and three dimensions bear the solver's bounds")
             }
 }
 
-TEST_CASE("transfers that keep less of the particles' velocities bear the bounds of FLIP, FMPM those over sqrt(k)")
+TEST_CASE("blocks bear the bounds of all transfers")
 {
     using stepping::Transfer;
     const std::vector<std::tuple<const char*, Transfer, int>> transfers = {
@@ -230,11 +230,13 @@ TEST_CASE("transfers that keep less of the particles' velocities bear the bounds
         for (const std::string shape : {"linear", "uGIMP", "CPDI", "quadraticBSpline", "cubicBSpline"})
             for (const auto update : {StressUpdate::USL, StressUpdate::MUSL, StressUpdate::USF})
             {
-                if (shape == "linear" && update == StressUpdate::USL)
-                    continue; // its bound follows the lightest node: above
-                double bound = stepping::criticalCourant(2, shape != "linear", update, 1);
-                if (transfer == Transfer::FMPM) // the inverse of the full mass is at most k times that of the lumped one
-                    bound /= std::sqrt(double(order));
+                stepping::Scene scene;
+                scene.stressUpdate = update;
+                scene.transfer = transfer;
+                scene.transferOrder = order;
+                if (stepping::limitFollowsMass(scene, shape != "linear"))
+                    continue; // with the lightest node: above
+                const double bound = stepping::methodCourant(2, shape != "linear", scene, 1);
                 for (const Index perCell : {1, 2, 3})
                 {
                     CAPTURE(name, shape, int(update), perCell);

@@ -234,7 +234,7 @@ TEST_CASE("what checkIntegrationDict says of time")
     REQUIRE(check.deltaT.size() == 2);
     CHECK(check.deltaT[1] == Approx(0.2 / 32 / c));
     CHECK(check.exact({0.3, 0, 0}, 0.004)[0] == Approx(0.05 * std::sin(0.3 * M_PI) * std::sin(0.4 * M_PI)));
-    CHECK(read("window 1;").schemes.size() == 7); // all of them
+    CHECK(read("window 1;").schemes.size() == 8); // all of them
     using Catch::Matchers::Contains;
     CHECK_THROWS_WITH(read("window 1; courant (0.1 0.2);"), Contains("falling"));
     CHECK_THROWS_WITH(read("window 1; schemes (USL RK5);"), Contains("RK5") && Contains("staggeredUSL"));

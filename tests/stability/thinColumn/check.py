@@ -45,7 +45,8 @@ def one_dimensional(y, v, length, steps):
         after = base(before + DT * force)
         v = v + (n * (after - before)[index]).sum(axis=1)
         again = base(scatter(index, (mass * v)[:, None] * n) / held)
-        strain = DT * (slope * again[index]).sum(axis=1)
+        stretch = DT * (slope * again[index]).sum(axis=1)
+        strain = stretch / (1 + stretch / 2)  # over the configuration of mid-step
         y = y + DT * (n * after[index]).sum(axis=1)
         volume = volume * np.exp(strain)
         along, across = along + (LAME + 2 * SHEAR) * strain, across + LAME * strain
