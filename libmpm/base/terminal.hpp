@@ -46,8 +46,8 @@ class Progress
     void update(double now, const std::string& details = "");
     /// Is a line due? Lets the caller skip making the details.
     bool due(double now) const;
-    /// For work that is done in large pieces and measured in no unit of its own: no value of it is shown, and the time left
-    /// comes from the mean rate.
+    /// For work that is done in large pieces and measured in no unit of its own: no value of it is shown, and the time
+    /// left comes from the mean rate.
     void inPieces() { inPieces_ = true; }
     /// A line of text that stays, above the progress line.
     void note(const std::string& text);

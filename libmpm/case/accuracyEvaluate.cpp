@@ -1,7 +1,7 @@
 // Errors of the rows, measure by measure: against what, how certain that is, and the parts of space and time.
 #include "case/accuracyAnalysis.hpp"
-#include "case/accuracySample.hpp"
 #include "case/accuracyCostTable.hpp"
+#include "case/accuracySample.hpp"
 
 #include <algorithm>
 #include <cmath>

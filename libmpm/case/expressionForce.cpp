@@ -1,7 +1,7 @@
 #include "case/expressionForce.hpp"
 
-#include "base/processorClock.hpp"
 #include "base/error.hpp"
+#include "base/processorClock.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -310,12 +310,13 @@ void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Mater
         for (int k = 0; k < stressComponents(p.dim); ++k)
             if (const auto& m = materials[std::size_t(p.material[i])];
                 p.stress[std::size_t(k)][i] != 0 && m.law->hyperelastic())
-                throw InputError(d.where(m.name),
-                                 fmt::format("{}: found law {}, whose stress follows from the deformation since the start, "
-                                             "and particle {} with {} {:g} Pa at the start; allowed: initialStress of type "
-                                             "none (seedParticles -overwrite)",
-                                             m.name, m.law->name(), p.id[i], stressNames[std::size_t(k)],
-                                             double(p.stress[std::size_t(k)][i])));
+                throw InputError(
+                    d.where(m.name),
+                    fmt::format("{}: found law {}, whose stress follows from the deformation since the start, "
+                                "and particle {} with {} {:g} Pa at the start; allowed: initialStress of type "
+                                "none (seedParticles -overwrite)",
+                                m.name, m.law->name(), p.id[i], stressNames[std::size_t(k)],
+                                double(p.stress[std::size_t(k)][i])));
 }
 } // namespace
 

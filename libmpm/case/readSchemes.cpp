@@ -88,20 +88,20 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
                                           {{"gridVelocity", "v*, the velocity after forces and walls"},
                                            {"strainVelocity", "w, the velocity MUSL strains them with"}},
                                           "gridVelocity") == "strainVelocity";
-    if (scene.moveByStrainVelocity && (scene.stressUpdate != stepping::StressUpdate::MUSL ||
-                                       scene.transfer != stepping::Transfer::FLIP ||
-                                       scene.timeIntegration != stepping::TimeIntegration::symplecticEuler))
+    if (scene.moveByStrainVelocity &&
+        (scene.stressUpdate != stepping::StressUpdate::MUSL || scene.transfer != stepping::Transfer::FLIP ||
+         scene.timeIntegration != stepping::TimeIntegration::symplecticEuler))
         d.fail("particleMotion", "strainVelocity with " + stepping::methodText(scene),
                "gridVelocity, or MUSL with FLIP: only there particles are strained with a velocity of their own");
-    scene.staggeredStart =
-        d.get<bool>({"staggeredStart", "on: the first kick is half a step", unit::none, {}, false});
+    scene.staggeredStart = d.get<bool>({"staggeredStart", "on: the first kick is half a step", unit::none, {}, false});
     if (scene.staggeredStart && scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
         d.fail("staggeredStart", "on with timeIntegration " + integration,
                "off: " + integration + " has positions and velocities at the same times");
     if (scene.staggeredStart && scene.stressUpdate == stepping::StressUpdate::USF)
-        d.fail("staggeredStart", "on with stressUpdate USF",
-               "USL or MUSL, or off: USF strains before its first kick, so that its stresses, not its velocities, would "
-               "start half a step off");
+        d.fail(
+            "staggeredStart", "on with stressUpdate USF",
+            "USL or MUSL, or off: USF strains before its first kick, so that its stresses, not its velocities, would "
+            "start half a step off");
     scene.sortInterval =
         d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
     if (const Dictionary* damping = d.findDict("damping", "force against the velocity"))

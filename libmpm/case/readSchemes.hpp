@@ -6,9 +6,10 @@
 ///     transfer      FLIP;       // FLIP | XPIC | FMPM | APIC | TPIC (stepping/velocityFilter.ipp, transfer/affine.hpp)
 ///     picRate       0;          // FLIP: [1/s] share of PIC velocity mixed in per second
 ///     order         2;          // XPIC, FMPM: terms of the filter; 1 is PIC
-///     particleMotion gridVelocity; // gridVelocity | strainVelocity (MUSL with FLIP: second order in time, one more gather)
-///     staggeredStart off;       // on: the first kick is half a step, velocities live at t - dt/2 (not with USF)
-///     timeIntegration symplecticEuler; // symplecticEuler | RK2 | RK4 (stepping/rungeKutta.hpp): with RK2 and RK4 all of
+///     particleMotion gridVelocity; // gridVelocity | strainVelocity (MUSL with FLIP: second order in time, one more
+///     gather) staggeredStart off;       // on: the first kick is half a step, velocities live at t - dt/2 (not with
+///     USF) timeIntegration symplecticEuler; // symplecticEuler | RK2 | RK4 (stepping/rungeKutta.hpp): with RK2 and RK4
+///     all of
 ///                               // a step is evaluated at each stage, stressUpdate and staggeredStart have no meaning
 ///     sortInterval  20;         // steps between sorts of the particles
 ///     damping       { ... }     // nodal/damping.hpp; absent: none

@@ -16,7 +16,8 @@
 ///     timePrecision    6;              // digits in folder names
 ///     runTimeModifiable no;            // only `no`: a run reads its dictionaries once
 ///     historyInterval  1;              // steps between rows of postProcessing/history.csv
-///     fields           (referencePosition); // stored beyond what the method needs (case/expressionForce.hpp); default ()
+///     fields           (referencePosition); // stored beyond what the method needs (case/expressionForce.hpp); default
+///     ()
 ///
 /// The sequence of steps follows from the state and the write times alone, never from endTime: a run takes the same
 /// steps however it is cut by restarts. It ends with the step that reaches endTime: with a fixed step the nearest one,

@@ -52,8 +52,8 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
             fmt::format(
                 "deltaT: found {:g} s; allowed: at most {:.4g} s for {} with {} at c_p = {:.1f} m/s, |v| = {:.3g} m/s "
                 "and h = {:g} m, or adjustTimeStep yes",
-                runTime_->deltaT(), limit_.deltaT, stepping::methodText(scene_.scene), scene_.shape,
-                limit_.waveSpeed, limit_.speed, state_.grid.h));
+                runTime_->deltaT(), limit_.deltaT, stepping::methodText(scene_.scene), scene_.shape, limit_.waveSpeed,
+                limit_.speed, state_.grid.h));
     const auto strains = StrainRecorder::recall(state_);
     if (!record.empty())
     {

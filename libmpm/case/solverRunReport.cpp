@@ -109,9 +109,9 @@ void SolverRun::banner() const
     else
         line("time", fmt::format("{:g} s to {:g} s, deltaT {}{:g} s", state_.time, runTime_->endTime(),
                                  runTime_->adjustable() ? "adjusted, first " : "", stepSize()));
-    line("stability",
-         fmt::format("deltaT <= {:.4g} s for {} with {}; now {:.3f} of it, (c_p + |v|) deltaT/h = {:.3f}",
-                     limit_.deltaT, stepping::methodText(s), scene_.shape, stepSize() / limit_.deltaT, (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
+    line("stability", fmt::format("deltaT <= {:.4g} s for {} with {}; now {:.3f} of it, (c_p + |v|) deltaT/h = {:.3f}",
+                                  limit_.deltaT, stepping::methodText(s), scene_.shape, stepSize() / limit_.deltaT,
+                                  (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
     line("monitor", monitor_->describe());
     line("threads", fmt::format("{}", options_.threadCount()));
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})

@@ -19,14 +19,15 @@ namespace unit = dictionary::unit;
 
 const std::vector<dictionary::Choice>& schemeCatalogue()
 {
-    static const std::vector<dictionary::Choice> catalogue = {{"USF", "stress before the forces"},
-                                                              {"USL", "stress last"},
-                                                              {"MUSL", "stress last, from a second projection"},
-                                                              {"staggeredUSL", "USL, the first kick half a step"},
-                                                              {"staggeredMUSL", "MUSL, the first kick half a step"},
-                                                              {"strainVelocityMUSL", "MUSL, particles moved by what strains them"},
-                                                              {"RK2", "midpoint rule"},
-                                                              {"RK4", "classical Runge-Kutta"}};
+    static const std::vector<dictionary::Choice> catalogue = {
+        {"USF", "stress before the forces"},
+        {"USL", "stress last"},
+        {"MUSL", "stress last, from a second projection"},
+        {"staggeredUSL", "USL, the first kick half a step"},
+        {"staggeredMUSL", "MUSL, the first kick half a step"},
+        {"strainVelocityMUSL", "MUSL, particles moved by what strains them"},
+        {"RK2", "midpoint rule"},
+        {"RK4", "classical Runge-Kutta"}};
     return catalogue;
 }
 

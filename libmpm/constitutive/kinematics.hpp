@@ -23,8 +23,8 @@ enum class TakenOver
     end    ///< the one that brought them there: dx <- (I - dt L)^-1 dx
 };
 
-/// L <- L (I + dt L/2)^-1, or with - at the end: the gradient over the mid-step configuration, which Hughes & Winget ask
-/// for. For a turn, dt L = Q - I, its symmetric part vanishes: -2 (1 - cos) a step would otherwise be taken for
+/// L <- L (I + dt L/2)^-1, or with - at the end: the gradient over the mid-step configuration, which Hughes & Winget
+/// ask for. For a turn, dt L = Q - I, its symmetric part vanishes: -2 (1 - cos) a step would otherwise be taken for
 /// compression, and a body that turns would grow by half its angle of a step with every radian. Where a step deforms by
 /// half or more L is kept.
 void toMidStep(TakenOver where, double dt, TensorLanes<2>& L);

@@ -79,8 +79,8 @@ T Dictionary::get(const Entry<T>& entry) const
         fail(entry.word, "a dictionary", allowedText(entry));
 
     const Rest all{found->value.data(), found->value.data() + found->value.size()};
-    constexpr bool isNumber = std::is_same_v<T, double> || std::is_same_v<T, Vector3> ||
-                              std::is_same_v<T, std::vector<FormulaText>>;
+    constexpr bool isNumber =
+        std::is_same_v<T, double> || std::is_same_v<T, Vector3> || std::is_same_v<T, std::vector<FormulaText>>;
     constexpr bool isPlain = std::is_same_v<T, Dimensions> || std::is_same_v<T, bool> || std::is_same_v<T, std::string>;
     Rest rest = all;
     if constexpr (!isPlain)

@@ -21,7 +21,7 @@ namespace mpm::seeding
 struct SeedMaterial
 {
     std::string name;
-    double density = 0; ///< [kg/m^3]
+    double density = 0;                    ///< [kg/m^3]
     dictionary::VectorExpression velocity; ///< of X, Y (and Z in 3D) [m/s]
     InitialStress initialStress;
     std::string description; ///< of the law, for the banner

@@ -98,10 +98,10 @@ double velocityAt(const Seed& seed, const SeedMaterial& material, std::size_t ax
     const auto& formula = material.velocity[axis];
     const double v = formula.evaluate(std::vector<double>(seed.centre.begin(), seed.centre.begin() + dim));
     if (!std::isfinite(v))
-        throw InputError(formula.where(), fmt::format("{}: initialVelocity: found {} at {} from \"{}\", allowed is a "
-                                                      "finite velocity at every particle",
-                                                      material.name, v, geometry::placeText(seed.centre, dim),
-                                                      formula.text()));
+        throw InputError(formula.where(),
+                         fmt::format("{}: initialVelocity: found {} at {} from \"{}\", allowed is a "
+                                     "finite velocity at every particle",
+                                     material.name, v, geometry::placeText(seed.centre, dim), formula.text()));
     return v;
 }
 

@@ -63,8 +63,7 @@ void Equations<dim, Shape>::sortAnew(const double* y)
         std::array<Index, 3> base{};
         for (int a = 0; a < dim; ++a)
         {
-            const double s =
-                (inBox(a, y[(ofX + a) * count_ + slot_[std::size_t(i)]]) - box_.origin[a]) / box_.h;
+            const double s = (inBox(a, y[(ofX + a) * count_ + slot_[std::size_t(i)]]) - box_.origin[a]) / box_.h;
             const bool inside = s > -1 && s < double(box_.cells[a] + 1); // others are refused by the pass that follows
             base[a] = inside ? Index(std::floor(s - 0.5 * (Narrow::nodes - 2))) : 0;
         }

@@ -68,7 +68,7 @@ struct Summary
     double largestSpeed = 0;                    ///< [m/s]
     double smallestJacobian = 1;
     double largestJacobian = 1; ///< as State::largestJacobian
-    Index cappedDomains = 0; ///< domains wider than the shape allows, held there
+    Index cappedDomains = 0;    ///< domains wider than the shape allows, held there
 };
 
 class SemiDiscrete

@@ -22,10 +22,10 @@ template <int dim>
 struct CornerWeights
 {
     static constexpr int corners = 1 << dim;
-    alignas(64) double place[dim][corners][lanes];   ///< of the corner in its cell, in [0, 1)
-    alignas(64) double g[dim][corners][lanes];       ///< g_c [1/m]
-    std::int32_t cell[dim][corners][lanes];          ///< lattice index of the node left of the corner
-    alignas(64) std::int32_t base[dim][lanes];       ///< least lattice index a corner may reach
+    alignas(64) double place[dim][corners][lanes]; ///< of the corner in its cell, in [0, 1)
+    alignas(64) double g[dim][corners][lanes];     ///< g_c [1/m]
+    std::int32_t cell[dim][corners][lanes];        ///< lattice index of the node left of the corner
+    alignas(64) std::int32_t base[dim][lanes];     ///< least lattice index a corner may reach
 };
 
 struct CPDI
@@ -116,9 +116,8 @@ struct CPDI
                 MPM_UNROLL
                 for (int k = 0; k < 3; ++k)
                     MPM_UNROLL
-                    for (int a = 0; a < 3; ++a)
-                        inverse[k * 3 + a][l] =
-                            over * minor((a + 1) % 3, (a + 2) % 3, (k + 1) % 3, (k + 2) % 3);
+                for (int a = 0; a < 3; ++a)
+                    inverse[k * 3 + a][l] = over * minor((a + 1) % 3, (a + 2) % 3, (k + 1) % 3, (k + 2) % 3);
             }
         }
     }

@@ -218,7 +218,8 @@ WeightTable fillBy(const state::State& state, const std::string& shape)
 
 const std::vector<std::string>& shapeNames()
 {
-    static const std::vector<std::string> names{"linear", "uGIMP", "cpGIMP", "CPDI", "quadraticBSpline", "cubicBSpline"};
+    static const std::vector<std::string> names{"linear",           "uGIMP",       "cpGIMP", "CPDI",
+                                                "quadraticBSpline", "cubicBSpline"};
     return names;
 }
 

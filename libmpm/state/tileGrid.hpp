@@ -92,9 +92,9 @@ struct Overlap
 
 struct Tile
 {
-    Index first = 0, count = 0; ///< its particles
-    NodeBox window;             ///< nodes they may reach
-    std::size_t start = 0;      ///< of the window in the windows' memory, in records
+    Index first = 0, count = 0;  ///< its particles
+    NodeBox window;              ///< nodes they may reach
+    std::size_t start = 0;       ///< of the window in the windows' memory, in records
     std::vector<Overlap> blocks; ///< blocks its window overlaps
 };
 

@@ -35,12 +35,13 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
     if ((filters() && pass.velocity) || pass.filter)
     {
         ws.filteredValues.resize(ws.values.size());
-        grid_.copyToWindow(tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
+        grid_.copyToWindow(
+            tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
     }
     if ((pass.strain && pass.gradientLane == 1) || (pass.velocity && affine()))
-        grid_.copyToWindow(tile, ws.gradients.data(),
-                           [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
-                           filters() ? filterLayer : 0);
+        grid_.copyToWindow(
+            tile, ws.gradients.data(), [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
+            filters() ? filterLayer : 0);
     if (pass.strain && pass.gradientLane != 1)
         grid_.copyToWindow(tile, ws.gradients.data(),
                            [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });

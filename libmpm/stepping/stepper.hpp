@@ -55,8 +55,8 @@ class BodyForce
     /// b[axis][lane] [m/s^2] of the `count` particles from `first` on.
     virtual void acceleration(const state::Particles& particles, Index first, int count, double time,
                               double (&b)[3][lanes]) const = 0;
-    /// What has gone wrong since this was asked last, or nothing. acceleration() is called by many threads, so it throws
-    /// nothing; who called it asks afterwards and throws a StepError.
+    /// What has gone wrong since this was asked last, or nothing. acceleration() is called by many threads, so it
+    /// throws nothing; who called it asks afterwards and throws a StepError.
     virtual std::string takeFault() const { return {}; }
 };
 
@@ -73,13 +73,13 @@ struct Scene
     StressUpdate stressUpdate = StressUpdate::MUSL;
     TimeIntegration timeIntegration = TimeIntegration::symplecticEuler;
     Transfer transfer = Transfer::FLIP;
-    int transferOrder = 2;       ///< k of XPIC and FMPM; 1 is PIC
+    int transferOrder = 2; ///< k of XPIC and FMPM; 1 is PIC
     /// MUSL with FLIP: particles move by the velocities w they are strained with, dt sum N w. By v* (METHOD Eq. 5) the
     /// difference of the two leaves positions and F an order apart: temporal errors of order 1, not 2.
     bool moveByStrainVelocity = false;
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
-    double picRate = 0;      ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
-    Index sortInterval = 20; ///< steps between sorts of the particles
+    double picRate = 0;          ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
+    Index sortInterval = 20;     ///< steps between sorts of the particles
 };
 
 /// What the last step saw.

@@ -96,10 +96,13 @@ void invertMoments(const double (&D)[dim][dim], double (&inverse)[dim][dim])
 
 /// APIC's C_p from nodal velocities (lanes 0 .. dim of a window packed for gradients).
 template <int dim, class Weights>
-void gatherAffine(const Weights& w, const HalfRecord* window, const double (&x)[dim][lanes],
-                  const state::GridBox& grid, int count, const state::NodeBox& box, double (&C)[dim * dim][lanes])
+void gatherAffine(const Weights& w, const HalfRecord* window, const double (&x)[dim][lanes], const state::GridBox& grid,
+                  int count, const state::NodeBox& box, double (&C)[dim * dim][lanes])
 {
-    constexpr bool productOverAxes = requires { w.axis; };
+    constexpr bool productOverAxes = requires
+    {
+        w.axis;
+    };
     for (int l = 0; l < count; ++l)
     {
         double B[dim][dim] = {}, D[dim][dim] = {}, inverse[dim][dim] = {};

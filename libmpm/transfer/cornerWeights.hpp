@@ -1,6 +1,7 @@
 #pragma once
 /// Transfers of a shape that interpolates between the corners of a domain (CPDI). Sums over nodes are products of hats
-/// at each corner: what a particle gives to, or takes from, corner c is one record, spread over the 2^d nodes around it.
+/// at each corner: what a particle gives to, or takes from, corner c is one record, spread over the 2^d nodes around
+/// it.
 ///
 /// The functions have the names and arguments of those for weights that are products over axes (particleToGrid.hpp,
 /// gridToParticle.hpp). Verified in tests/unit/cornerWeights.cpp against sums over pairs of particles and nodes.
@@ -67,15 +68,15 @@ MPM_INLINE void aroundCorner(const ChunkWeights<dim, shape::CPDI>& w, int c, int
     MPM_UNROLL
     for (int k = 0; k < (dim == 3 ? 2 : 1); ++k)
         MPM_UNROLL
-        for (int j = 0; j < 2; ++j)
-            MPM_UNROLL
-            for (int i = 0; i < 2; ++i)
-            {
-                double N = w.hat(0, c, l, i) * w.hat(1, c, l, j);
-                if constexpr (dim == 3)
-                    N *= w.hat(2, c, l, k);
-                visit(w.offset[c][l] + i + j * nx + k * nxy, N);
-            }
+    for (int j = 0; j < 2; ++j)
+        MPM_UNROLL
+    for (int i = 0; i < 2; ++i)
+    {
+        double N = w.hat(0, c, l, i) * w.hat(1, c, l, j);
+        if constexpr (dim == 3)
+            N *= w.hat(2, c, l, k);
+        visit(w.offset[c][l] + i + j * nx + k * nxy, N);
+    }
 }
 
 /// What a particle gives to one of its corners.
@@ -121,7 +122,7 @@ void projectChunk(const ChunkWeights<dim, shape::CPDI>& w, const ParticleRecords
 
 template <int dim, class Meanwhile>
 void gatherCornerValues(const ChunkWeights<dim, shape::CPDI>& w, const typename ValueNode<dim>::Type* window,
-                  const state::NodeBox& box, Values<dim>& out, Meanwhile&& meanwhile)
+                        const state::NodeBox& box, Values<dim>& out, Meanwhile&& meanwhile)
 {
     using Node = typename ValueNode<dim>::Type;
     constexpr double share = dim == 2 ? 0.25 : 0.125;
@@ -142,7 +143,7 @@ void gatherCornerValues(const ChunkWeights<dim, shape::CPDI>& w, const typename 
 
 template <int dim, class Meanwhile>
 void gatherCornerGradient(const ChunkWeights<dim, shape::CPDI>& w, const HalfRecord* window, const state::NodeBox& box,
-                    double (&L)[dim * dim][lanes], Meanwhile&& meanwhile)
+                          double (&L)[dim * dim][lanes], Meanwhile&& meanwhile)
 {
     for (int l = 0; l < lanes; ++l)
     {

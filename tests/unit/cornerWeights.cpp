@@ -1,8 +1,8 @@
 // CPDI against what defines it: sums over pairs of particles and nodes, made from the corners of each domain; and what
 // the definition must give: partition of unity, linear fields and their gradients, no change under rigid turns.
+#include "transfer/cornerWeights.hpp"
 #include "support/particleCloud.hpp"
 #include "transfer/affine.hpp"
-#include "transfer/cornerWeights.hpp"
 
 #include <Eigen/Dense>
 
@@ -249,8 +249,8 @@ TEST_CASE("domains whose corners would leave the support are scaled about their 
     const double ratio = d.half[0][3] / d.half[1][3];
     CHECK(shape::CPDI::holdWithin<2>(d.half, d.count) == 1);
     CHECK(d.half[0][3] / d.half[1][3] == Approx(ratio));
-    const double reach = std::max(std::abs(d.half[0][3]) + std::abs(d.half[1][3]),
-                                  std::abs(d.half[2][3]) + std::abs(d.half[3][3]));
+    const double reach =
+        std::max(std::abs(d.half[0][3]) + std::abs(d.half[1][3]), std::abs(d.half[2][3]) + std::abs(d.half[3][3]));
     CHECK(reach <= 1);
     CHECK(reach == Approx(1).epsilon(1e-11));
     d.w.evaluate(d.x, d.half, d.grid);

@@ -128,7 +128,8 @@ TEST_CASE("ten turns keep the volume")
     CHECK(std::abs(volumeAfterTurns<3>() - 1) < 1e-11);
 }
 
-/// dt L = T - I (over the start) or I - T^-1 (over the end) for the step's deformation T: both ends give the same middle.
+/// dt L = T - I (over the start) or I - T^-1 (over the end) for the step's deformation T: both ends give the same
+/// middle.
 template <int dim>
 void checkMidStep()
 {

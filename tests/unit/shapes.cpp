@@ -174,7 +174,7 @@ TEST_CASE("beside a wall the cubic spline leaves out the node behind, keeps line
         at.x[63] = origin + h * (plane + side * (1 + 1e-13));
         auto w = weights<CubicBSpline>(at);
         CubicBSpline::foldAtWall(at.x, origin, 1 / h, plane, w);
-        const auto of = [&](const double (&value)[4][lanes], int l, int node) {
+        const auto of = [&](const double(&value)[4][lanes], int l, int node) {
             const int n = node - w.base[l];
             return n >= 0 && n < 4 ? value[n][l] : 0.0;
         };

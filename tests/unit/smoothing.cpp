@@ -191,7 +191,8 @@ TEST_CASE("the table of a shape is the solver's: linear equals bilinear, wide do
         return count;
     };
     CHECK(reached(weightTable(stretched, "cpGIMP")) > reached(weightTable(state, "cpGIMP")));
-    CHECK_THROWS_WITH(weightTable(state, "gimp"), Catch::Contains("linear, uGIMP, cpGIMP, CPDI, quadraticBSpline or cubicBSpline"));
+    CHECK_THROWS_WITH(weightTable(state, "gimp"),
+                      Catch::Contains("linear, uGIMP, cpGIMP, CPDI, quadraticBSpline or cubicBSpline"));
     state.particles.x[0][3] = -100;
     CHECK_THROWS_WITH(weightTable(state, "linear"), Catch::Contains("id 3 lies outside"));
 }

@@ -18,8 +18,8 @@ struct Choice
     Transfer transfer;
     int order;
 };
-const std::vector<Choice> choices = {{Transfer::FLIP, 1}, {Transfer::XPIC, 1}, {Transfer::XPIC, 3}, {Transfer::FMPM, 2},
-                                     {Transfer::APIC, 1}, {Transfer::TPIC, 1}};
+const std::vector<Choice> choices = {{Transfer::FLIP, 1}, {Transfer::XPIC, 1}, {Transfer::XPIC, 3},
+                                     {Transfer::FMPM, 2}, {Transfer::APIC, 1}, {Transfer::TPIC, 1}};
 const std::vector<std::string> shapes = {"linear", "uGIMP", "cpGIMP", "CPDI", "quadraticBSpline", "cubicBSpline"};
 
 stepping::Scene elasticScene(Choice choice, StressUpdate update, double E = 1e6)
@@ -182,7 +182,8 @@ TEST_CASE("XPIC takes out what no grid sees and keeps the more of what it sees t
         stepper->step(1e-9);
         double most = 0;
         for (Index i = 0; i < s.particles.size(); ++i)
-            if (std::abs(s.particles.x[0][std::size_t(i)] - 5) < 1 && std::abs(s.particles.x[1][std::size_t(i)] - 5) < 1)
+            if (std::abs(s.particles.x[0][std::size_t(i)] - 5) < 1 &&
+                std::abs(s.particles.x[1][std::size_t(i)] - 5) < 1)
                 most = std::max(most, std::abs(s.particles.v[0][std::size_t(i)]));
         CHECK(most < 0.02); // of 1; the edges of the block have pairs of their own
     }
@@ -278,7 +279,8 @@ TEST_CASE("a body that fills a periodic box moves through its sides as if there 
                 stepper->step(4e-3);
             for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
             {
-                const double x = 0.25 + 0.5 * double(s.particles.id[i] % 10), y = 0.25 + 0.5 * double(s.particles.id[i] / 10);
+                const double x = 0.25 + 0.5 * double(s.particles.id[i] % 10),
+                             y = 0.25 + 0.5 * double(s.particles.id[i] / 10);
                 const double dx = s.particles.x[0][i] - x - 30 * 0.6, dy = s.particles.x[1][i] - y + 17 * 0.6;
                 CHECK(std::abs(dx - 5 * std::round(dx / 5)) < 1e-10);
                 CHECK(std::abs(dy - 5 * std::round(dy / 5)) < 1e-10);

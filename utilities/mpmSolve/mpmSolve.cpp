@@ -14,10 +14,12 @@ int main(int argc, char** argv)
                     {"errorMeasure", "NAME", "which error of postProcessing/accuracyCost.csv (default: the first)"}};
     info.usesDryRun = info.usesOverwrite = info.usesThreads = true;
     info.details =
-        "Reads constant/{materialProperties,boundaryConditions,g,bodyForce}, system/{controlDict,gridDict,mpmSchemes} and "
+        "Reads constant/{materialProperties,boundaryConditions,g,bodyForce}, system/{controlDict,gridDict,mpmSchemes} "
+        "and "
         "the state of the start time (seedParticles makes the first).\n"
         "Writes time folders, postProcessing/history.csv and energyBudget.csv, and <case>.xdmf for ParaView.\n"
-        "constant/bodyForce { value (\"A*sin(pi*X)*cos(t)\" 0 0); constants { A 0.05; } }: variables x y z X Y Z t; where\n"
+        "constant/bodyForce { value (\"A*sin(pi*X)*cos(t)\" 0 0); constants { A 0.05; } }: variables x y z X Y Z t; "
+        "where\n"
         "X Y Z are named, and with fields (referencePosition); in controlDict, states hold where particles started.\n"
         "-dry-run reads and checks everything, says what would be done and what it will cost, and writes nothing:\n"
         "steps, memory, bytes, and seconds from up to 2 s of steps that are thrown away; and the error to expect, "
