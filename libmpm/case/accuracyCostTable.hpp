@@ -22,6 +22,7 @@
 #include "base/csvTable.hpp"
 #include "case/accuracyMeasure.hpp"
 #include "case/accuracyRun.hpp"
+#include "case/timeCheck.hpp"
 
 #include <cmath>
 
@@ -46,9 +47,10 @@ struct Evaluation
     std::vector<CostLine> lines; ///< measure by measure, each in the order of the rows; rows not run are left out
 };
 
-/// `reference`: index of the row that is the finest by decision, or nothing.
+/// `reference`: index of the row that is the finest by decision, or nothing. `solver`: for `against semiDiscrete`.
 Evaluation evaluate(const AccuracyCase& base, std::vector<MatrixRow> rows, std::vector<RowResult> results,
-                    std::vector<Measure> measures, const ExactSolution& exact, std::optional<std::size_t> reference);
+                    std::vector<Measure> measures, const ExactSolution& exact, std::optional<std::size_t> reference,
+                    const ReferenceSolver& solver = {});
 
 CsvTable costTable(const Evaluation& evaluation);
 } // namespace mpm::cases

@@ -1,6 +1,7 @@
 // Errors of the rows, measure by measure: against what, how certain that is, and the parts of space and time.
 #include "case/accuracyAnalysis.hpp"
 #include "case/accuracyCostTable.hpp"
+#include "case/accuracyIntegration.hpp"
 #include "case/accuracySample.hpp"
 
 #include <algorithm>
@@ -18,9 +19,9 @@ class Judge
 {
   public:
     Judge(Evaluation& all, const AccuracyCase& base, std::size_t measure, const ExactSolution& exact,
-          std::optional<std::size_t> reference)
-        : all_(all), base_(base), exact_(exact), measure_(measure), m_(all.measures[measure]), decided_(reference),
-          samples_(all.rows.size())
+          std::optional<std::size_t> reference, RowIntegration& integration)
+        : integration_(integration), all_(all), base_(base), exact_(exact), measure_(measure),
+          m_(all.measures[measure]), decided_(reference), samples_(all.rows.size())
     {}
 
     void judge()
@@ -66,6 +67,14 @@ class Judge
                 setError(line, std::abs(line.value - m_.number), std::abs(m_.number));
                 line.referenceError = 0;
             }
+            if (m_.against == "semiDiscrete")
+            {
+                const auto& end = integration_.end(run);
+                const auto time = run.latestTime().name;
+                const auto truth = stateSample(m_, run, end.state, time);
+                setError(line, sampleDistance(m_, s, truth), sampleSize(m_, truth));
+                line.referenceError = sampleDistance(m_, stateSample(m_, run, end.rougher, time), truth) / line.scale;
+            }
             if (m_.against == "exact")
             {
                 const auto [error, size] = exactError(m_, run, exact_);
@@ -74,6 +83,10 @@ class Judge
             }
         }
         catch (const InputError& error)
+        {
+            line.note = error.what();
+        }
+        catch (const StepError& error) // of a reference integration
         {
             line.note = error.what();
         }
@@ -199,7 +212,7 @@ class Judge
 
     void split()
     {
-        if (m_.against == "finestTimeStep")
+        if (m_.against == "finestTimeStep" || m_.against == "semiDiscrete")
         {
             for (CostLine& line : lines_)
                 line.temporal = line.error;
@@ -231,6 +244,7 @@ class Judge
             lines_[i].pareto = best[i];
     }
 
+    RowIntegration& integration_;
     Evaluation& all_;
     const AccuracyCase& base_;
     const ExactSolution& exact_;
@@ -243,8 +257,10 @@ class Judge
 } // namespace
 
 Evaluation evaluate(const AccuracyCase& base, std::vector<MatrixRow> rows, std::vector<RowResult> results,
-                    std::vector<Measure> measures, const ExactSolution& exact, std::optional<std::size_t> reference)
+                    std::vector<Measure> measures, const ExactSolution& exact, std::optional<std::size_t> reference,
+                    const ReferenceSolver& solver)
 {
+    RowIntegration integration(solver);
     Evaluation all;
     for (const auto& row : rows)
         all.facts.push_back(base.facts(row));
@@ -252,7 +268,7 @@ Evaluation evaluate(const AccuracyCase& base, std::vector<MatrixRow> rows, std::
     all.results = std::move(results);
     all.measures = std::move(measures);
     for (std::size_t i = 0; i < all.measures.size(); ++i)
-        Judge(all, base, i, exact, reference).judge();
+        Judge(all, base, i, exact, reference, integration).judge();
     return all;
 }
 } // namespace mpm::cases

@@ -90,10 +90,14 @@ void readAgainst(const Dictionary& d, Measure& m, const ExactSolution& exact)
                          {{"exact", "the solution in `exact`"},
                           {"number", "`value`"},
                           {"finest", "the finest run"},
-                          {"finestTimeStep", "the run of the same grid with the smallest step"}});
+                          {"finestTimeStep", "the run of the same grid with the smallest step"},
+                          {"semiDiscrete", "the equations of the same grid before time is cut into steps"}});
+    if (m.against == "semiDiscrete" && m.kind != MeasureKind::field)
+        d.fail("against", "semiDiscrete", "number, finest or finestTimeStep, as the measure is no field");
     if (m.against == "exact" && (m.kind != MeasureKind::field || !exact.has(m.of)))
         d.fail("against", m.kind == MeasureKind::field ? "exact, of which `exact` says nothing for " + m.of : "exact",
-               m.kind == MeasureKind::field ? "a field that stands in `exact`" : "number, finest or finestTimeStep");
+               m.kind == MeasureKind::field ? "a field that stands in `exact`"
+                                            : "number, finest, finestTimeStep or semiDiscrete");
     if (m.against == "number" && !m.scalar())
         d.fail("against", "number", "exact, finest or finestTimeStep, as the measure is no scalar");
     if (m.against == "number")

@@ -34,6 +34,9 @@
 ///           number           `value`, in the scalar's own unit
 ///           finest           the finest run: smallest cells, then smallest step, then most particles
 ///           finestTimeStep   the run of the same grid and method with the smallest step: the temporal error alone
+///           semiDiscrete     the semi-discrete equations of the same grid and shape, by CVODE to tight tolerance
+///                            (accuracyIntegration.hpp): the temporal error alone, of any method; fields of smooth
+///                            scenes
 /// scale     the error is divided by it; default: the size of what it is compared with, so that errors are relative
 ///
 /// Fields follow particles by their ids; where the particles are others, a linear fit to the nearest ones of the finest

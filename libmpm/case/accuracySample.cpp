@@ -44,8 +44,12 @@ double valueOf(const std::string& field, int component, const state::Particles& 
 
 Sample fieldSample(const Measure& m, const CaseDirectory& run, const std::string& timeName)
 {
+    return stateSample(m, run, output::readState(run.statePath(timeName)), timeName);
+}
+
+Sample stateSample(const Measure& m, const CaseDirectory& run, const state::State& state, const std::string& timeName)
+{
     const auto places = materialPositions(run);
-    const auto state = output::readState(run.statePath(timeName));
     const auto& p = state.particles;
     std::vector<std::size_t> order(static_cast<std::size_t>(p.size()));
     for (std::size_t i = 0; i < order.size(); ++i)

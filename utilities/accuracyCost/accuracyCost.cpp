@@ -6,6 +6,7 @@
 #include "case/interruption.hpp"
 #include "output/replaceFile.hpp"
 #include "output/runScript.hpp"
+#include "reference/semiDiscreteSolution.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -92,7 +93,11 @@ int run(const cases::Options& options)
                                 .again = options.overwrite,
                                 .stopped = [&] { return interruption.signal() != 0; }};
     const auto results = cases::runRows(base, plan.rows, how);
-    const auto all = cases::evaluate(base, plan.rows, results, plan.measures, plan.exact, plan.reference);
+    const auto all =
+        cases::evaluate(base, plan.rows, results, plan.measures, plan.exact, plan.reference,
+                        [](auto& equations, const auto& start, const auto& model, double window, double tolerance) {
+                            return reference::integrateSemiDiscrete(equations, start, model, window, tolerance).y;
+                        });
     const auto file = here.postProcessing() / "accuracyCost.csv";
     output::replaceText(file, cases::costTable(all).text());
     fmt::print("\nwrote postProcessing/accuracyCost.csv\n");
