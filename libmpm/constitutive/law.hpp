@@ -11,6 +11,7 @@
 #include "dictionary/dictionary.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -83,6 +84,12 @@ class Law
     }
     /// Can the law yield at all? (The monitor asks.)
     virtual bool plastic() const { return false; }
+    /// Into chunk.yield: what update() reports of the stress it leaves, of chunk.stress as it stands. Nothing else
+    /// changes. For judging stored stresses; no step asks.
+    virtual void reportYield(Chunk<2>& chunk) const { std::fill_n(chunk.yield, lanes, 0.0); }
+    virtual void reportYield(Chunk<3>& chunk) const { std::fill_n(chunk.yield, lanes, 0.0); }
+    /// The largest mean stress the law can carry, that of its apex [Pa]; infinity without one.
+    virtual double tensionLimit() const { return std::numeric_limits<double>::infinity(); }
     /// The law if its stress is a function of the deformation gradient, else null.
     virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };

@@ -2,9 +2,11 @@
 
 #include "constitutive/lodeFrame.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace mpm::constitutive
 {
@@ -148,6 +150,34 @@ void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, const MohrCoulo
     for (int i = 0; i < chunk.count; ++i)
         chunk.apexReturns += chunk.region[i] == Region::apex;
 }
+
+/// Largest and smallest principal stress.
+std::pair<double, double> extremePrincipals(const double (&s)[4])
+{
+    const double centre = 0.5 * (s[0] + s[1]), radius = std::hypot(0.5 * (s[0] - s[1]), s[3]);
+    return {std::max(s[2], centre + radius), std::min(s[2], centre - radius)};
+}
+
+std::pair<double, double> extremePrincipals(const double (&s)[6])
+{
+    constexpr double sqrt2over3 = 0.81649658092772603, sqrtHalf = 0.70710678118654752;
+    const LodeFrame frame = lodeFrame(s);
+    const double x = sqrt2over3 * frame.size * frame.theta.cosine, y = sqrtHalf * frame.size * frame.theta.sine;
+    return {frame.mean + x, frame.mean - (y + 0.5 * x)};
+}
+
+template <int dim>
+void yieldOfChunk(Chunk<dim>& chunk, const MohrCoulombSurface& surface)
+{
+    for (int i = 0; i < lanes; ++i)
+    {
+        double s[stressSize<dim>];
+        for (int k = 0; k < stressSize<dim>; ++k)
+            s[k] = chunk.stress[k][i];
+        const auto [s1, s3] = extremePrincipals(s);
+        chunk.yield[i] = relativeYield(surface, s1, s3);
+    }
+}
 } // namespace
 
 void requireParameters(const MohrCoulombParameters& p)
@@ -233,5 +263,15 @@ void MohrCoulomb::update(Chunk<3>& chunk) const
         return updateChunk(chunk, parameters_.moduli, surface_);
     updateInParts<3>(chunk, *substep_, parameters_.moduli, surface_.strength,
                      [this](Chunk<3>& part) { updateChunk(part, parameters_.moduli, surface_); });
+}
+
+void MohrCoulomb::reportYield(Chunk<2>& chunk) const
+{
+    yieldOfChunk(chunk, surface_);
+}
+
+void MohrCoulomb::reportYield(Chunk<3>& chunk) const
+{
+    yieldOfChunk(chunk, surface_);
 }
 } // namespace mpm::constitutive

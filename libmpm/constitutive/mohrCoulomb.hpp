@@ -43,6 +43,9 @@ class MohrCoulomb : public Law
     double bulkModulus() const override { return parameters_.moduli.bulk(); }
     double shearModulus() const override { return parameters_.moduli.shear(); }
     bool plastic() const override { return true; }
+    void reportYield(Chunk<2>& chunk) const override;
+    void reportYield(Chunk<3>& chunk) const override;
+    double tensionLimit() const override { return surface_.highest; }
 
     const MohrCoulombParameters& parameters() const { return parameters_; }
     const std::optional<Substep>& substep() const { return substep_; }

@@ -45,6 +45,23 @@ void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, double yieldStr
     }
     chunk.apexReturns = 0;
 }
+
+template <int dim>
+void yieldOfChunk(Chunk<dim>& chunk, double yieldStress)
+{
+    for (int l = 0; l < lanes; ++l)
+    {
+        const double mean = (chunk.stress[0][l] + chunk.stress[1][l] + chunk.stress[2][l]) * (1.0 / 3);
+        double square = 0, largest = yieldStress;
+        for (int k = 0; k < stressSize<dim>; ++k)
+        {
+            const double stress = chunk.stress[k][l], s = k < 3 ? stress - mean : stress;
+            square += (k < 3 ? 1 : 2) * s * s;
+            largest = std::max(largest, std::abs(stress));
+        }
+        chunk.yield[l] = (std::sqrt(square) - std::sqrt(2.0 / 3) * yieldStress) / largest;
+    }
+}
 } // namespace
 
 VonMises::VonMises(const ElasticModuli& moduli, double yieldStress, std::optional<Substep> substep)
@@ -84,5 +101,15 @@ void VonMises::update(Chunk<3>& chunk) const
         return updateChunk(chunk, moduli_, yieldStress_);
     updateInParts<3>(chunk, *substep_, moduli_, yieldStress_,
                      [this](Chunk<3>& part) { updateChunk(part, moduli_, yieldStress_); });
+}
+
+void VonMises::reportYield(Chunk<2>& chunk) const
+{
+    yieldOfChunk(chunk, yieldStress_);
+}
+
+void VonMises::reportYield(Chunk<3>& chunk) const
+{
+    yieldOfChunk(chunk, yieldStress_);
 }
 } // namespace mpm::constitutive

@@ -32,6 +32,8 @@ class VonMises : public Law
     double bulkModulus() const override { return moduli_.bulk(); }
     double shearModulus() const override { return moduli_.shear(); }
     bool plastic() const override { return true; }
+    void reportYield(Chunk<2>& chunk) const override;
+    void reportYield(Chunk<3>& chunk) const override;
     const ElasticModuli& moduli() const { return moduli_; }
     double yieldStress() const { return yieldStress_; }
     const std::optional<Substep>& substep() const { return substep_; }
