@@ -36,6 +36,27 @@ std::vector<constitutive::Material> readMaterials(const Dictionary& d)
     return materials;
 }
 
+std::vector<constitutive::Material> matchMaterials(const Dictionary& d, const state::State& state)
+{
+    const auto all = readMaterials(d);
+    std::vector<constitutive::Material> out;
+    for (const auto& name : state.materials)
+    {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
+        if (found == all.end())
+        {
+            std::vector<std::string> names;
+            for (const auto& m : all)
+                names.push_back(m.name);
+            throw InputError(d.where(), fmt::format("found no material '{}', which particles of the state are made of; "
+                                                    "there are {}",
+                                                    name, joinWords(names, " and ")));
+        }
+        out.push_back(*found);
+    }
+    return out;
+}
+
 std::optional<Vector3> readGravity(const Dictionary& d, int dim)
 {
     if (d.found("dimensions"))
@@ -280,27 +301,6 @@ void takeGrid(const Dictionary& gridDict, state::State& state)
                     fmt::format("a box around all particles: the one with id {} lies at {:g} m", p.id[i], x));
 }
 
-/// Materials in the state's order.
-std::vector<constitutive::Material> matchMaterials(const Dictionary& d, const state::State& state)
-{
-    const auto all = readMaterials(d);
-    std::vector<constitutive::Material> out;
-    for (const auto& name : state.materials)
-    {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
-        if (found == all.end())
-        {
-            std::vector<std::string> names;
-            for (const auto& m : all)
-                names.push_back(m.name);
-            throw InputError(d.where(), fmt::format("found no material '{}', which particles of the state are made of; "
-                                                    "there are {}",
-                                                    name, joinWords(names, " and ")));
-        }
-        out.push_back(*found);
-    }
-    return out;
-}
 /// A hyperelastic law makes stress from the deformation alone: what a state of step 0 holds would vanish unseen.
 void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Material>& materials,
                       const state::State& state)

@@ -20,7 +20,10 @@ namespace mpm::cases
 /// Every material in file order; names must be unique by construction of a dictionary.
 std::vector<constitutive::Material> readMaterials(const dictionary::Dictionary& materialProperties);
 
-/// A material's place, for State::materials; InputError naming those there are.
+/// The same in the order of State::materials, by which particles name them; InputError for one that is not there.
+std::vector<constitutive::Material> matchMaterials(const dictionary::Dictionary& materialProperties,
+                                                   const state::State& state);
+
 std::optional<Vector3> readGravity(const dictionary::Dictionary& g, int dim);
 
 /// Walls and loads. Patches give planes to boundaries named after them.

@@ -3,7 +3,7 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/caseLock.hpp"
-#include "dictionary/dictionary.hpp"
+#include "case/smoothingInput.hpp"
 #include "output/csvSeries.hpp"
 #include "output/derivedFields.hpp"
 #include "output/paraviewSeries.hpp"
@@ -16,23 +16,6 @@ using namespace mpm;
 
 namespace
 {
-std::string readShape(const cases::CaseDirectory& here)
-{
-    std::vector<dictionary::Choice> shapes;
-    for (const auto& name : smoothing::shapeNames())
-        shapes.push_back({name, ""});
-    return dictionary::Dictionary::readFile(here.dictionaryPath("system/mpmSchemes"))
-        .choose("shape", "shape functions", shapes, "uGIMP");
-}
-
-Vector3 readGravity(const cases::CaseDirectory& here)
-{
-    if (!here.hasFile("constant/g"))
-        return {0, 0, 0};
-    return dictionary::Dictionary::readFile(here.dictionaryPath("constant/g"))
-        .get<Vector3>({"value", "gravity", dictionary::unit::acceleration});
-}
-
 void store(const std::filesystem::path& file, const state::State& state, const smoothing::SmoothedStress& stress,
            const std::vector<double>& overburden, int axis)
 {
@@ -89,8 +72,8 @@ int main(int argc, char** argv)
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);
         const cases::CaseLock lock(options, "smoothStress");
-        const std::string shape = readShape(here);
-        const Vector3 gravity = readGravity(here);
+        const std::string shape = cases::readSmoothingShape(here);
+        const Vector3 gravity = cases::readSmoothingGravity(here);
         const auto times = here.selectTimes(options.time, options.latestTime);
         fmt::print("smoothStress of {}: {} times, shape {}\n", here.name(), times.size(), shape);
         if (options.dryRun)
