@@ -2,8 +2,10 @@
 
 #include "output/ledgerEntries.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <type_traits>
 
 namespace mpm::cases
@@ -37,14 +39,14 @@ struct Value
     double value;
 };
 
-void appendNoise(std::vector<Value>& out, const StressReport& r, int dim)
+void appendNoise(std::vector<Value>& out, const StressReport& r)
 {
     const auto own = [&](int c) { return r.noise.own.empty() ? 0.0 : r.noise.own[std::size_t(c)]; };
     const auto ofMean = [&](int c) { return r.noise.ofMean.empty() ? 0.0 : r.noise.ofMean[std::size_t(c)]; };
-    for (int c = 0; c < stressComponents(dim); ++c)
+    for (int c = 0; c < stressComponents(r.dim); ++c)
         if (c != 1)
             out.push_back({noiseName(c), own(c)});
-    for (int c = 3; c < stressComponents(dim); ++c)
+    for (int c = 3; c < stressComponents(r.dim); ++c)
         out.push_back({noiseName(c) + "OfMean", ofMean(c)});
     out.push_back({"noiseMean", r.noise.mean});
     out.push_back({"noiseVertical", r.quality.noise});
@@ -66,7 +68,7 @@ void appendComparison(std::vector<Value>& out, const std::optional<smoothing::Co
 }
 
 /// Names and values side by side, so that they cannot come apart.
-std::vector<Value> values(const StressReport& r, int dim, bool against)
+std::vector<Value> values(const StressReport& r, bool against)
 {
     std::vector<Value> out{{"time", r.time},
                            {"noiseYY", r.noise.own.empty() ? 0 : r.noise.own[1]},
@@ -75,7 +77,7 @@ std::vector<Value> values(const StressReport& r, int dim, bool against)
                            {"volumeError", r.volume.dropped},
                            {"remedyEnergyLoss", r.loss.total},
                            {"particles", double(r.particles)}};
-    appendNoise(out, r, dim);
+    appendNoise(out, r);
     const std::vector<Value> more{{"checkerboard", r.checkerboard.share},
                                   {"checkerboardAmplitude", r.checkerboard.amplitude},
                                   {"checkerboardCells", double(r.checkerboard.cells)},
@@ -129,6 +131,7 @@ StressReport stressReport(const state::State& state, const StressReporting& with
     const auto table = smoothing::weightTable(state, with.shape);
     const auto smoothed = smoothing::smoothStress(state.particles, table);
     StressReport out;
+    out.dim = state.particles.dim;
     out.time = state.time;
     out.particles = state.particles.size();
     out.quality = smoothing::stressQuality(state, table, smoothed, with.gravity);
@@ -144,8 +147,10 @@ StressReport stressReport(const state::State& state, const StressReporting& with
 
 std::vector<std::string> stressReportColumns(int dim, bool against)
 {
+    StressReport report;
+    report.dim = dim;
     std::vector<std::string> names;
-    for (const auto& value : values({}, dim, against))
+    for (const auto& value : values(report, against))
         names.push_back(value.name);
     return names;
 }
@@ -153,46 +158,66 @@ std::vector<std::string> stressReportColumns(int dim, bool against)
 std::vector<double> stressReportRow(const StressReport& report, bool against)
 {
     std::vector<double> row;
-    for (const auto& value : values(report, report.noise.own.size() == 6 ? 3 : 2, against))
-        row.push_back(value.value);
+    for (const auto& value : values(report, against))
+        row.push_back(std::isnan(value.value) ? std::numeric_limits<double>::quiet_NaN() : value.value); // no "-nan"
     return row;
 }
 
-std::vector<std::string> stressReportHeads(bool against)
+namespace
 {
-    std::vector<std::string> heads{"time",  "N",       "N floor",    "corr",   "error", "N mean",   "checkerb.",
-                                   "yield", "tension", "in tension", "volume", "seen",  "remedies", "transfer"};
+std::vector<std::string> stressHeads(bool against)
+{
+    std::vector<std::string> heads{"time",   "N",           "N floor", "N by mass",
+                                   "N mean", "correlation", "error",   "checkerboard"};
     if (against)
         heads.insert(heads.end(), {"raw - other", "smoothed - other", "compared"});
     return heads;
 }
+} // namespace
 
-std::vector<std::string> stressReportCells(const StressReport& r, const std::string& time, bool against)
+StressReportTables::StressReportTables(bool against)
+    : against_(against), stress_(stressHeads(against)),
+      body_({"time", "beyond yield", "beyond apex", "in tension", "volume error", "seen", "remedies", "transfer"})
+{}
+
+void StressReportTables::row(const StressReport& r, const std::string& time)
 {
     const auto share = [](double value) { return fmt::format("{:.4f}", value); };
     const auto small = [](double value) { return fmt::format("{:.1e}", value); };
     const auto kilo = [](double value) { return fmt::format("{:.2f}", 1e-3 * value); };
+    axis_ = r.quality.axis;
     std::vector<std::string> cells{time,
                                    share(r.quality.noise),
                                    share(r.quality.noiseFloor),
+                                   share(r.quality.noiseByMass),
+                                   share(r.noise.mean),
                                    share(r.quality.raw.correlation),
                                    kilo(r.quality.raw.error),
-                                   share(r.noise.mean),
-                                   small(r.checkerboard.share),
-                                   small(r.admissibility.yieldViolation),
-                                   small(r.admissibility.tensionViolation),
-                                   share(r.admissibility.massInTension),
-                                   share(r.volume.dropped),
-                                   share(r.volume.inelastic),
-                                   share(r.loss.total),
-                                   share(r.loss.transfer)};
-    if (against)
+                                   share(r.checkerboard.share)};
+    if (against_)
     {
-        const bool both = r.against.has_value();
-        cells.push_back(both ? kilo(r.against->raw) : "-");
-        cells.push_back(both ? kilo(r.against->smoothed) : "-");
-        cells.push_back(both ? share(r.against->massShare) : "-");
+        cells.push_back(r.against ? kilo(r.against->raw) : "-");
+        cells.push_back(r.against ? kilo(r.against->smoothed) : "-");
+        cells.push_back(r.against ? share(r.against->massShare) : "-");
     }
-    return cells;
+    stress_.row(std::move(cells));
+    body_.row({time, small(r.admissibility.yieldViolation), small(r.admissibility.tensionViolation),
+               share(r.admissibility.massInTension), share(r.volume.dropped), share(r.volume.inelastic),
+               share(r.loss.total), share(r.loss.transfer)});
+}
+
+std::string StressReportTables::text() const
+{
+    const char* stress = stressNames[std::size_t(axis_)];
+    std::string out =
+        fmt::format("sigma_{0}: N = RMS(raw - smoothed)/RMS(smoothed); correlation and RMS error [kPa] of "
+                    "raw against overburden;\ncheckerboard: share of the pressure's variance",
+                    stress);
+    if (against_)
+        out += "; - other: RMS difference from the other's nodal stress [kPa],\ncompared: share of our mass";
+    return out +
+           fmt::format("\n{}volume error: what returns to the apex made, seen: inelastic change of all particles, "
+                       "of the initial volume;\nremedies, transfer: energy they took, of the energy released\n{}",
+                       stress_.text(), body_.text());
 }
 } // namespace mpm::cases

@@ -42,6 +42,7 @@
 ///
 /// Stress relaxation that acts at intervals does so at the start of a step, so the state stored before it is that of
 /// the most noise: pick a writeInterval of a whole number of intervals.
+#include "base/terminal.hpp"
 #include "constitutive/material.hpp"
 #include "smoothing/admissibility.hpp"
 #include "smoothing/checkerboard.hpp"
@@ -67,7 +68,8 @@ RemedyLoss remedyLoss(const state::Ledger& ledger);
 
 struct StressReport
 {
-    double time = 0;
+    int dim = 2;
+    double time = 0; ///< [s]
     Index particles = 0;
     smoothing::StressQuality quality; ///< along gravity
     smoothing::ComponentNoise noise;
@@ -95,7 +97,18 @@ StressReport stressReport(const state::State& state, const StressReporting& with
 std::vector<std::string> stressReportColumns(int dim, bool against);
 std::vector<double> stressReportRow(const StressReport& report, bool against);
 
-/// For people: what matters most, one row a time.
-std::vector<std::string> stressReportHeads(bool against);
-std::vector<std::string> stressReportCells(const StressReport& report, const std::string& time, bool against);
+/// For people: what matters most as two tables, one row a time.
+class StressReportTables
+{
+  public:
+    explicit StressReportTables(bool against);
+    void row(const StressReport& report, const std::string& time);
+    /// The tables, each below a line that says what its columns are.
+    std::string text() const;
+
+  private:
+    bool against_;
+    int axis_ = 1;
+    Table stress_, body_;
+};
 } // namespace mpm::cases

@@ -15,7 +15,7 @@
 ///     amplitude  RMS q over RMS P: what the pattern is beside the pressure; the share is small where weight makes
 ///                pressures differ much from top to bottom
 /// Both are not a number without a cell inside, and 0 where nothing but round-off differs. Verified in
-/// tests/unit/stressQuality.cpp.
+/// tests/unit/stressMeasures.cpp.
 #include "state/state.hpp"
 
 namespace mpm::smoothing

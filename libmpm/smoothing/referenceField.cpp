@@ -73,6 +73,7 @@ std::vector<double> ReferenceField::at(const state::Particles& ours) const
         const auto found = nodes_.find(key(table.position[node]));
         there[node] = found == nodes_.end() ? nullptr : &found->second;
     }
+    const double corner = (1 - 1e-9) * std::pow(0.5, dim_);
     for (std::size_t i = 0; i < inside.size(); ++i)
     {
         double stress = 0, full = 0;
@@ -84,7 +85,7 @@ std::vector<double> ReferenceField::at(const state::Particles& ours) const
             stress += weight * there[node]->stress;
             full += weight * there[node]->full;
         });
-        if (around && full >= 0.5)
+        if (around && full >= corner)
             out[inside[i]] = stress;
     }
     return out;

@@ -5,8 +5,9 @@
 ///     sigma_ref(x) = sum_i N_i(x) sigma_i,   N_i as a particle of the other would have it there as seeded (its seed
 ///     spacing, F = I)
 /// Compared is where the other has material around: x lies in its grid, all nodes with N_i(x) > 0 carry mass, and
-/// phi(x) = sum_i N_i(x) phi_i >= 1/2, phi_i = sum_q V_q N_iq/h^dim, the share of the space at a node that is full. On
-/// a level surface phi is 1/2. The field keeps constants, and linear fields away from boundaries.
+/// phi(x) = sum_i N_i(x) phi_i >= 2^-dim, phi_i = sum_q V_q N_iq/h^dim, the share of the space around a node that is
+/// full: 1/2 on a level surface, 2^-dim at the corner of a block. The field keeps constants, and linear fields away
+/// from boundaries.
 #include "smoothing/smoothStress.hpp"
 
 #include <unordered_map>

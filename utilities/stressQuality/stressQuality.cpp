@@ -1,6 +1,5 @@
 // How far the stresses of stored times can be trusted: noise, overburden, checkerboard, law, volume, energy, and how
 // far they are from those of another case.
-#include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseLock.hpp"
 #include "case/otherCase.hpp"
@@ -28,32 +27,20 @@ cases::StressReporting readInput(const cases::CaseDirectory& here)
     with.elasticVolumeAtStart = first.step == 0 ? smoothing::elasticVolume(first, with.materials) : std::nan("");
     return with;
 }
-
-void explain(int axis, const std::optional<cases::OtherCase>& other, std::size_t times)
-{
-    const char* stress = stressNames[std::size_t(axis)];
-    fmt::print("sigma_{}: N = RMS(raw - smoothed)/RMS(smoothed); corr, error [kPa]: raw against overburden\n", stress);
-    fmt::print("volume: made by returns to the apex, seen: inelastic change of all particles; of the initial volume\n");
-    fmt::print("remedies, transfer: energy they took, of the energy released\n");
-    if (other)
-        fmt::print("against {} ({} of {} times): RMS of raw and smoothed sigma_{} - its nodal stress [kPa], where it "
-                   "has material\n",
-                   other->name(), other->commonTimes(), times, stress);
-}
 } // namespace
 
 int main(int argc, char** argv)
 {
     cases::ApplicationInfo info{"stressQuality", "how far the stresses of stored times can be trusted"};
     info.usesTime = info.usesDryRun = true;
-    info.options = {{"against", "DIR",
-                     "another case, usually at twice the resolution: RMS error of our stresses against its nodal "
-                     "stress at every time both have; a relative path starts at the case folder"}};
+    info.options = {
+        {"against", "DIR", "RMS error against the stresses of another case; relative: as seen from the case folder"}};
     info.details =
         "Writes postProcessing/stressQuality.csv and prints, for each time: noise N of every stress component, "
         "correlation\nand RMS error against overburden, checkerboard of the pressure, violation of yield surface and "
-        "tension limit, spurious\nvolume, and the energy remedies took, of the energy released. Columns: "
-        "libmpm/case/stressReport.hpp.";
+        "tension limit, spurious\nvolume, and the energy remedies took, of the energy released. With -against, at "
+        "times both cases have, RMS error of\nour raw and smoothed stresses against the nodal stress of the other, "
+        "usually one of twice the resolution, where it has\nmaterial. Columns: libmpm/case/stressReport.hpp.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory here(options.caseFolder);
         const cases::CaseLock lock(options, "stressQuality");
@@ -79,16 +66,17 @@ int main(int argc, char** argv)
             reports.push_back(cases::stressReport(state, with, fine ? &*fine : nullptr));
         }
         const bool against = other.has_value();
-        const int dim = int(reports.front().noise.own.size()) == 6 ? 3 : 2;
-        output::CsvSeries csv(here.postProcessing() / "stressQuality.csv", cases::stressReportColumns(dim, against));
-        Table table(cases::stressReportHeads(against));
+        output::CsvSeries csv(here.postProcessing() / "stressQuality.csv",
+                              cases::stressReportColumns(reports.front().dim, against));
+        cases::StressReportTables tables(against);
         for (std::size_t i = 0; i < reports.size(); ++i)
         {
             csv.write(cases::stressReportRow(reports[i], against));
-            table.row(cases::stressReportCells(reports[i], times[i].name, against));
+            tables.row(reports[i], times[i].name);
         }
-        explain(reports.front().quality.axis, other, times.size());
-        fmt::print("{}wrote postProcessing/stressQuality.csv\n", table.text());
+        if (against)
+            fmt::print("against {}: {} of {} times\n", other->name(), other->commonTimes(), times.size());
+        fmt::print("{}wrote postProcessing/stressQuality.csv\n", tables.text());
         return 0;
     });
 }
