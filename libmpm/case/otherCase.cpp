@@ -20,11 +20,22 @@ std::string list(const std::vector<TimeFolder>& times)
         text += (i ? ", " : "") + times[i].name;
     return times.empty() ? "none" : text + (times.size() > 8 ? ", ..." : "");
 }
+
+/// The folder, said in the words of the option if it is no case.
+std::filesystem::path caseAt(const CaseDirectory& here, const std::filesystem::path& typed)
+{
+    const auto folder = typed.is_absolute() ? typed : here.folder() / typed;
+    if (!std::filesystem::is_directory(folder / "system"))
+        throw InputError(fmt::format(
+            "-against {}: found {}, allowed is a case folder, as seen from this one", typed.string(),
+            std::filesystem::exists(folder) ? "no case there, as it has no system/" : "nothing of that name"));
+    return folder;
+}
 } // namespace
 
 OtherCase::OtherCase(const CaseDirectory& here, const std::filesystem::path& folder,
                      const std::vector<TimeFolder>& times)
-    : there_(folder.is_absolute() ? folder : here.folder() / folder)
+    : there_(caseAt(here, folder))
 {
     const auto all = there_.times();
     for (const auto& time : times)

@@ -170,7 +170,8 @@ class WrongInput(unittest.TestCase):
     # options
 
     def test_unknown_option(self):
-        for utility in ("seedParticles", "mpmSolve", "smoothStress", "splitParticles", "checkIntegration"):
+        for utility in ("seedParticles", "mpmSolve", "smoothStress", "stressQuality", "splitParticles",
+                        "checkIntegration"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-latesTime", says=["-latesTime", "-case"])
 
@@ -185,12 +186,12 @@ class WrongInput(unittest.TestCase):
     # cases and files
 
     def test_missing_case(self):
-        for utility in ("seedParticles", "mpmSolve", "smoothStress", "splitParticles"):
+        for utility in ("seedParticles", "mpmSolve", "smoothStress", "stressQuality", "splitParticles"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-case", "nowhere", says=["nowhere"])
 
     def test_folder_that_is_no_case(self):
-        for utility in ("seedParticles", "mpmSolve", "smoothStress"):
+        for utility in ("seedParticles", "mpmSolve", "smoothStress", "stressQuality"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-case", "geometry", says=["geometry", "system"])
 
@@ -233,7 +234,7 @@ class WrongInput(unittest.TestCase):
         for size in (0, 100, len(whole) // 2, len(whole) - 1):
             with self.subTest(size=size):
                 state.write_bytes(whole[:size])
-                for utility in ("mpmSolve", "smoothStress"):
+                for utility in ("mpmSolve", "smoothStress", "stressQuality"):
                     self.assert_refused(utility, says=["state.h5"])
 
     def test_foreign_state(self):

@@ -1,6 +1,7 @@
 """The wrong inputs of docs/wrongInputs.md: what is wrong, how a copy of the column gets it, which program meets it."""
 
 import os
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -52,6 +53,20 @@ def state(action):
 
 def both(*changes):
     return lambda case: [change(case) for change in changes]
+
+
+def other_case(time):
+    """A second case in `other`, whose only time is the seeded one by another name."""
+    def change(case):
+        for part in ("constant", "system"):
+            shutil.copytree(case / part, case / "other" / part)
+        shutil.copytree(case / "0", case / "other" / time)
+    return change
+
+
+def other_dimension(case):
+    with h5py.File(case / "other" / "0" / "state.h5", "r+") as file:
+        file.attrs["dimension"] = np.int64(3)
 
 
 def put(name, index, value):
@@ -147,6 +162,11 @@ GROUPS = [
         Entry("a time that is none", "smoothStress -time now"),
         Entry("a range that runs backwards", "smoothStress -time 2:1"),
         Entry("two ways to choose the time", "smoothStress -time 0 -latestTime"),
+        Entry("another case that is not there", "stressQuality -against nowhere"),
+        Entry("another case that is no case", "stressQuality -against geometry"),
+        Entry("another case without a time of ours", "stressQuality -against other", other_case("1")),
+        Entry("another case of another dimension", "stressQuality -against other",
+              both(other_case("0"), other_dimension)),
         Entry("a time within which nothing runs", "mpmSolve -withinTime 0"),
         Entry("an error that is no number", "mpmSolve -withinError small"),
         Entry("two wishes at once", "mpmSolve -withinTime 60 -withinError 0.01"),
@@ -374,7 +394,8 @@ GROUPS = [
         solve("a material that is not in the list", put("particles/material", 7, 3)),
         solve("a ledger that is infinite", replaced("ledger/gravityWork", float("inf"))),
         Entry("the same of another program", "smoothStress", put("particles/volume", 7, -1)),
-        Entry("the same of a third", "splitParticles -target refined", put("particles/length0", (7, 1), 0)),
+        Entry("the same of a third", "stressQuality", put("particles/volume", 7, -1)),
+        Entry("the same of a fourth", "splitParticles -target refined", put("particles/length0", (7, 1), 0)),
     ]),
     ("Dictionaries that do not fit the state or each other", [
         solve("other cells than the particles were seeded on", edit(GRID, "0.2666666666666667;", "0.4;")),
