@@ -182,9 +182,12 @@ StressReportTables::StressReportTables(bool against)
 
 void StressReportTables::row(const StressReport& r, const std::string& time)
 {
-    const auto share = [](double value) { return fmt::format("{:.4f}", value); };
-    const auto small = [](double value) { return fmt::format("{:.1e}", value); };
-    const auto kilo = [](double value) { return fmt::format("{:.2f}", 1e-3 * value); };
+    const auto text = [](const char* form, double value) { // empty where there is no number
+        return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), value);
+    };
+    const auto share = [&](double value) { return text("{:.4f}", value); };
+    const auto small = [&](double value) { return text("{:.1e}", value); };
+    const auto kilo = [&](double value) { return text("{:.2f}", 1e-3 * value); };
     axis_ = r.quality.axis;
     std::vector<std::string> cells{time,
                                    share(r.quality.noise),
@@ -196,9 +199,10 @@ void StressReportTables::row(const StressReport& r, const std::string& time)
                                    share(r.checkerboard.share)};
     if (against_)
     {
-        cells.push_back(r.against ? kilo(r.against->raw) : "-");
-        cells.push_back(r.against ? kilo(r.against->smoothed) : "-");
-        cells.push_back(r.against ? share(r.against->massShare) : "-");
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        cells.push_back(kilo(r.against ? r.against->raw : none));
+        cells.push_back(kilo(r.against ? r.against->smoothed : none));
+        cells.push_back(share(r.against ? r.against->massShare : none));
     }
     stress_.row(std::move(cells));
     body_.row({time, small(r.admissibility.yieldViolation), small(r.admissibility.tensionViolation),

@@ -13,8 +13,7 @@
 ///     noiseXX, noiseZZ, noiseXY (noiseYZ, noiseZX in 3D)
 ///                          N of the other components
 ///     noiseXYOfMean (...)  noise of a shear component over the RMS of the smoothed mean stress: its own RMS may be
-///     next
-///                          to nothing
+///                          next to nothing
 ///     noiseMean            N of the mean stress
 ///     noiseVertical, noiseByMass, noiseFloor
 ///                          of the normal stress along gravity (sigma_yy without gravity): N, N with means by mass, N
@@ -29,6 +28,7 @@
 ///                          seen in the particles, where the flow rule keeps volume
 ///     releasedEnergy       [J], per metre in 2D: gravityWork + tractionWork + bodyForceWork of the ledger; where these
 ///                          are zero, the kinetic and elastic energy at the start
+///                          (a body that swings hands the work of gravity back: compare times of the same phase)
 ///     relaxationLoss, averagingLoss, gapWork, transferLoss
 ///                          entries of the ledger over releasedEnergy; 0 where the ledger has no such entry. What
 ///                          filters of velocity (PIC, XPIC) take is part of transferLoss, with what every transfer

@@ -6,6 +6,7 @@
 ///                       none is beyond; laws without an apex count as obeying
 ///     massInTension     share of the mass with tr sigma/3 > 0: allowed up to the apex, but soil carries little of it
 /// `scale` [Pa] > 0: ComponentNoise::scale serves, the RMS of the smoothed mean stress.
+/// Verified in tests/unit/stressMeasures.cpp.
 #include "constitutive/material.hpp"
 #include "state/state.hpp"
 

@@ -6,6 +6,7 @@
 /// over particles, each counted once. A shear component may be near zero all over (a level layer at rest): its own
 /// RMS then says nothing, and own_c is large however small the noise is. ofMean_c tells whether the noise of shear
 /// matters beside the pressure that carries the load. 0/0 is not a number.
+/// Verified in tests/unit/stressMeasures.cpp.
 #include "smoothing/smoothStress.hpp"
 
 namespace mpm::smoothing

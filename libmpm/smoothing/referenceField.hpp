@@ -8,6 +8,7 @@
 /// phi(x) = sum_i N_i(x) phi_i >= 2^-dim, phi_i = sum_q V_q N_iq/h^dim, the share of the space around a node that is
 /// full: 1/2 on a level surface, 2^-dim at the corner of a block. The field keeps constants, and linear fields away
 /// from boundaries.
+/// Verified in tests/unit/stressReport.cpp.
 #include "smoothing/smoothStress.hpp"
 
 #include <unordered_map>

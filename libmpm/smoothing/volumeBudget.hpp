@@ -9,6 +9,7 @@
 /// Where the flow rule keeps volume (von Mises; Mohr-Coulomb with psi = 0) dropped and inelastic are two measures of
 /// the same thing, one booked step by step and one seen in the particles; they differ by what relaxation or smoothing
 /// did to stresses without a strain.
+/// Verified in tests/unit/stressMeasures.cpp.
 #include "constitutive/material.hpp"
 #include "state/state.hpp"
 
