@@ -64,14 +64,25 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
                 out[i][1 + dim + a] += back * row.node[i][1 + dim + a];
                 out[i][1 + a] = row.node[i][1 + a]; // v*, which says what the walls hold
             }
+        // What walls take from the filtered velocity is an impulse too: sum m_p v_p = sum m_i times what is left here.
+        const auto book = [&](double sign) {
+            for (Index i = row.begin; i < row.end; ++i)
+                for (int a = 0; a < dim; ++a)
+                    row.sums->wallImpulse[a] += sign * row.node[i][0] * out[i][1 + dim + a];
+        };
+        book(-1);
         nodal::NodeRow<dim> held = row;
         held.node = out;
         for (const auto& wall : walls_)
             wall.follow(held);
+        book(1);
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
                 out[i][1 + a] = out[i][1 + dim + a];
     });
+    for (const auto& block : blockSums_)
+        for (int a = 0; a < dim; ++a)
+            state_.ledger.wallImpulse[a] += block.wallImpulse[a];
 }
 
 /// change(row, block, filter) for all rows; filter[i] is node i's record in the filter layer.
