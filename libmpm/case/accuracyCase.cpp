@@ -206,6 +206,7 @@ std::string AccuracyCase::refusedSchemes(const MatrixRow& row, const RowFacts& f
         const auto schemes = Dictionary::fromText(text, schemeFile);
         stepping::Scene scene;
         readSchemes(schemes, scene);
+        readStressTreatment(schemes, scene); // what the laws may object to is not known here
         schemes.rejectUnread();
         return "";
     }

@@ -127,6 +127,8 @@ void enableOptional(const Particles& from, Particles& to)
     if constexpr (requires { from.hasAffine(); })
         if (from.hasAffine())
             to.enableAffine();
+    to.keepTensionGap(from.hasTensionGap());
+    to.keepDilationRate(from.hasDilationRate());
 }
 } // namespace
 

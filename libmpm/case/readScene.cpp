@@ -347,6 +347,7 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
     const Dictionary& schemes = open("system/mpmSchemes");
     out.shape = readSchemes(schemes, out.scene);
+    out.scene.treatment = readStressTreatment(schemes, out.scene);
     if (out.scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
         if (const auto why = whyNotSmooth(out.shape, out.scene); !why.empty())
             schemes.fail("timeIntegration", schemes.get<std::string>({"timeIntegration", "time integration"}),

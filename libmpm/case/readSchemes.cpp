@@ -61,8 +61,19 @@ void readTransfer(const Dictionary& d, stepping::Scene& scene)
     if (ordered)
         scene.transferOrder =
             int(d.get<Index>({"order", "terms of the filter, 1: PIC", unit::none, Bound::between(1, 20), Index(2)}));
-    else if (d.found("order"))
-        d.fail("order", "an order with transfer " + name, "it with XPIC and FMPM only");
+    else
+        for (const char* word : {"order", "filterRate", "filterInterval"})
+            if (d.found(word))
+                d.fail(word, "it with transfer " + name, "it with XPIC and FMPM only");
+    if (ordered && d.found("filterRate"))
+    {
+        scene.filterRate = d.get<double>(
+            {"filterRate", "share of the filter mixed in per second", unit::rate, Bound::nonNegative()});
+        scene.filterInterval =
+            d.get<Index>({"filterInterval", "steps between filters", unit::none, Bound::atLeast(1), Index(1)});
+    }
+    else if (ordered && d.found("filterInterval"))
+        d.fail("filterInterval", "it without filterRate", "it with filterRate: without, every step is filtered in full");
 }
 } // namespace
 

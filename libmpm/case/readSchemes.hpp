@@ -11,6 +11,9 @@
 ///     USF) timeIntegration symplecticEuler; // symplecticEuler | RK2 | RK4 (stepping/rungeKutta.hpp): with RK2 and RK4
 ///     all of
 ///                               // a step is evaluated at each stage, stressUpdate and staggeredStart have no meaning
+///     filterRate    5;          // XPIC, FMPM: [1/s] share of the filter mixed in per second, FLIP else; absent: in full
+///     filterInterval 1;         // [steps] between filters, with filterRate
+///     stressTreatment none;     // none | automatic | { ... } (treatment/stressTreatment.hpp)
 ///     sortInterval  20;         // steps between sorts of the particles
 ///     damping       { ... }     // nodal/damping.hpp; absent: none
 ///     splitting     { ... }     // splitting/splitParticles.hpp; absent: none
@@ -22,6 +25,9 @@ namespace mpm::cases
 {
 /// Shape's name; the rest goes into the scene.
 std::string readSchemes(const dictionary::Dictionary& mpmSchemes, stepping::Scene& scene);
+
+/// stressTreatment, which depends on the materials. Throws InputError where it is not valid for their laws.
+treatment::StressTreatment readStressTreatment(const dictionary::Dictionary& mpmSchemes, const stepping::Scene& scene);
 
 /// The words solver and splitParticles share: threshold, mode, maxParticles, maxGeneration.
 splitting::Rule readSplitRule(const dictionary::Dictionary& splitting);

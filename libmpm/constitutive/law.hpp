@@ -90,6 +90,10 @@ class Law
     virtual void reportYield(Chunk<3>& chunk) const { std::fill_n(chunk.yield, lanes, 0.0); }
     /// The largest mean stress the law can carry, that of its apex [Pa]; infinity without one.
     virtual double tensionLimit() const { return std::numeric_limits<double>::infinity(); }
+    /// Does the flow rule make volume?
+    virtual bool dilates() const { return false; }
+    /// Does a return to the apex drop volume (Chunk::apexStrain), of which one may ask where it is?
+    virtual bool dropsApexVolume() const { return false; }
     /// The law if its stress is a function of the deformation gradient, else null.
     virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };

@@ -46,6 +46,11 @@ class MohrCoulomb : public Law
     void reportYield(Chunk<2>& chunk) const override;
     void reportYield(Chunk<3>& chunk) const override;
     double tensionLimit() const override { return surface_.highest; }
+    bool dilates() const override { return parameters_.dilationAngle > 0; }
+    bool dropsApexVolume() const override
+    {
+        return parameters_.dilationAngle == 0 && parameters_.frictionAngle > 0 && !substep_;
+    }
 
     const MohrCoulombParameters& parameters() const { return parameters_; }
     const std::optional<Substep>& substep() const { return substep_; }

@@ -20,6 +20,9 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("staggering", ledger.staggering, "J");
     visit("initialStaggering", ledger.initialStaggering, "J");
     visit("finiteStrainWork", ledger.finiteStrainWork, "J");
+    visit("relaxationLoss", ledger.relaxationLoss, "J");
+    visit("averagingLoss", ledger.averagingLoss, "J");
+    visit("gapWork", ledger.gapWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
@@ -39,7 +42,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 38 * 8,
+    static_assert(sizeof(state::Ledger) == 41 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

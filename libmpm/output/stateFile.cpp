@@ -140,6 +140,10 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
         file.writeRows<double>("/particles/referencePosition", {n, dim}, "m", interleaved(p.X, dim));
     if (p.hasAffine())
         file.writeRows<double>("/particles/affine", {n, dim, dim}, "1/s", interleaved(p.affine, dim * dim));
+    if (p.hasTensionGap())
+        plain("tensionGap", p.tensionGap, "1");
+    if (p.hasDilationRate())
+        plain("dilationRate", p.dilationRate, "1/s");
 }
 
 void readParticles(const Hdf5File& file, state::Particles& p)
@@ -180,6 +184,16 @@ void readParticles(const Hdf5File& file, state::Particles& p)
         p.enableAffine();
         file.readRows<double>("/particles/affine", {n, dim, dim}, dealTo(p.affine, dim * dim));
     }
+    if (file.exists("/particles/tensionGap"))
+    {
+        p.keepTensionGap(true);
+        plain("tensionGap", p.tensionGap);
+    }
+    if (file.exists("/particles/dilationRate"))
+    {
+        p.keepDilationRate(true);
+        plain("dilationRate", p.dilationRate);
+    }
     p.padLastChunk();
 }
 
@@ -200,6 +214,9 @@ void readLedger(const Hdf5File& file, state::Ledger& ledger)
 {
     forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
         using Value = std::decay_t<decltype(value)>;
+        const bool late = name == "relaxationLoss" || name == "averagingLoss" || name == "gapWork";
+        if (late && !file.exists("/ledger/" + name))
+            return; // a file of a version that had none
         if constexpr (std::is_same_v<Value, Vector3>)
         {
             const auto values = file.read<double>("/ledger/" + name, {3});

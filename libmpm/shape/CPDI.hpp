@@ -30,6 +30,7 @@ struct CornerWeights
 
 struct CPDI
 {
+    static constexpr const char* word = "CPDI";
     static constexpr int nodes = 4; ///< an axis, that any corner may reach
     static constexpr bool hasDomain = true;
     static constexpr bool followsStretch = false;

@@ -19,6 +19,7 @@ namespace mpm::shape
 {
 struct CpGIMP
 {
+    static constexpr const char* word = "cpGIMP";
     static constexpr int nodes = 4;
     static constexpr bool hasDomain = true;
     static constexpr bool followsStretch = true;

@@ -20,6 +20,7 @@ namespace mpm::shape
 {
 struct CubicBSpline
 {
+    static constexpr const char* word = "cubicBSpline";
     static constexpr int nodes = 4;
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;

@@ -11,6 +11,7 @@ namespace mpm::shape
 {
 struct Linear
 {
+    static constexpr const char* word = "linear";
     static constexpr int nodes = 2;
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;

@@ -17,6 +17,7 @@ namespace mpm::shape
 {
 struct QuadraticBSpline
 {
+    static constexpr const char* word = "quadraticBSpline";
     static constexpr int nodes = 3;
     static constexpr bool hasDomain = false;
     static constexpr bool followsStretch = false;

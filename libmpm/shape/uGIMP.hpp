@@ -16,6 +16,7 @@ namespace mpm::shape
 {
 struct UGIMP
 {
+    static constexpr const char* word = "uGIMP";
     static constexpr int nodes = 3;
     static constexpr bool hasDomain = true;
     static constexpr bool followsStretch = false;

@@ -51,6 +51,28 @@ void Particles::disableAffine()
         column = {};
 }
 
+namespace
+{
+void keepColumn(bool keep, std::size_t size, bool& has, Column<double>& column)
+{
+    if (keep && !has)
+        column.assign(size, 0.0);
+    if (!keep)
+        column = {};
+    has = keep;
+}
+} // namespace
+
+void Particles::keepTensionGap(bool keep)
+{
+    keepColumn(keep, mass.size(), hasTensionGap_, tensionGap);
+}
+
+void Particles::keepDilationRate(bool keep)
+{
+    keepColumn(keep, mass.size(), hasDilationRate_, dilationRate);
+}
+
 void Particles::padLastChunk()
 {
     if (size_ == 0)

@@ -51,15 +51,22 @@ struct Particles
     /// Affine part of the velocity near the particle, v(x) = v_p + C (x - x_p): dim x dim row by row [1/s], what the
     /// transfers APIC and TPIC carry.
     std::array<Column<double>, 9> affine;
+    Column<double> tensionGap;   ///< volumetric strain a particle is open by (treatment/tensionGap.hpp) [-]
+    Column<double> dilationRate; ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
 
     bool hasX() const { return hasX_; }
     bool hasAffine() const { return hasAffine_; }
+    bool hasTensionGap() const { return hasTensionGap_; }
+    bool hasDilationRate() const { return hasDilationRate_; }
     /// Adds the columns of X: the positions as they are.
     void enableX();
     /// Adds the columns of the affine part: zero.
     void enableAffine();
     /// Takes them away again.
     void disableAffine();
+    /// Adds the column, zero, or takes it away; does nothing where that is so already.
+    void keepTensionGap(bool keep);
+    void keepDilationRate(bool keep);
 
     Index size() const { return size_; }
     Index chunks() const { return (size_ + lanes - 1) / lanes; }
@@ -97,10 +104,14 @@ struct Particles
             visit(X[k]);
         for (int k = 0; k < dim * dim && hasAffine_; ++k)
             visit(affine[k]);
+        if (hasTensionGap_)
+            visit(tensionGap);
+        if (hasDilationRate_)
+            visit(dilationRate);
     }
 
   private:
-    bool hasX_ = false, hasAffine_ = false;
+    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false;
     Index size_ = 0;
 };
 } // namespace mpm::state

@@ -25,6 +25,9 @@ struct Ledger
     double staggering = 0;        ///< energy of velocities that live half a step off the stresses, now
     double initialStaggering = 0; ///< the same at the first step
     double finiteStrainWork = 0;  ///< elastic energy that finite steps of a rate law make (energyBudget.hpp)
+    double relaxationLoss = 0;    ///< elastic energy that stress relaxation takes (treatment/stressRelaxation.hpp)
+    double averagingLoss = 0;     ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
+    double gapWork = 0;           ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
     double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2
     double apexVolume = 0;        ///< volume dropped by apex returns beyond the flow rule [m^3]

@@ -202,8 +202,14 @@ void TileGrid::findBlocks()
 
 Record* TileGrid::find(Index i, Index j, Index k)
 {
+    const Index at = place(i, j, k);
+    return at < 0 ? nullptr : nodes_[0].data() + at;
+}
+
+Index TileGrid::place(Index i, Index j, Index k) const
+{
     if (layout_.empty())
-        return nullptr;
+        return -1;
     const TileLayout& layout = layout_.front();
     std::array<Index, 3> node{i, j, k}, box{};
     for (int a = 0; a < layout.dim(); ++a)
@@ -216,7 +222,7 @@ Record* TileGrid::find(Index i, Index j, Index k)
     const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), key,
                                         [](const Block& b, Index wanted) { return b.key < wanted; });
     if (found == blocks_.end() || found->key != key || !found->box.contains(node[0], node[1], node[2]))
-        return nullptr;
-    return nodes(*found) + found->box.offset(node[0], node[1], node[2]);
+        return -1;
+    return Index(found->start) + found->box.offset(node[0], node[1], node[2]);
 }
 } // namespace mpm::state

@@ -113,6 +113,8 @@ class TileGrid
     /// base of the key.
     void build(const Particles& particles, const TileLayout& layout, int below, int above);
 
+    int dim() const { return layout_.empty() ? 2 : layout_.front().dim(); }
+
     const std::vector<Tile>& tiles() const { return tiles_; }
     const std::vector<Block>& blocks() const { return blocks_; }
     Index largestWindow() const { return largestWindow_; }
@@ -163,6 +165,26 @@ class TileGrid
     template <class R, class Repack>
     void copyToWindow(const Tile& tile, R* out, Repack&& repack, int layer = 0) const
     {
+        copyRows(tile, nodes_[std::size_t(layer)].data(), out, repack);
+    }
+
+    /// The same for values the caller keeps of all nodes, in the order of the blocks (Block::start).
+    void copyToWindow(const Tile& tile, const std::vector<double>& values, double* out) const
+    {
+        copyRows(tile, values.data(), out, [](double value) { return value; });
+    }
+
+    /// Place of a node among those of all blocks, -1 where no window reaches.
+    Index place(Index i, Index j, Index k) const;
+
+    /// The record of a node, null where no window reaches.
+    Record* find(Index i, Index j, Index k);
+    const Record* find(Index i, Index j, Index k) const { return const_cast<TileGrid*>(this)->find(i, j, k); }
+
+  private:
+    template <class From, class To, class Repack>
+    void copyRows(const Tile& tile, const From* values, To* out, Repack&& repack) const
+    {
         for (const Overlap& overlap : tile.blocks)
         {
             const Block& block = blocks_[std::size_t(overlap.block)];
@@ -170,20 +192,14 @@ class TileGrid
             for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
                 for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
                 {
-                    const Record* from = nodes(block, layer) + block.box.offset(both.lo[0], j, k);
-                    R* to = out + window.offset(both.lo[0], j, k);
+                    const From* from = values + block.start + block.box.offset(both.lo[0], j, k);
+                    To* to = out + window.offset(both.lo[0], j, k);
                     prefetch(from + block.box.n[0], both.n[0]);
                     for (Index i = 0; i < both.n[0]; ++i)
                         to[i] = repack(from[i]);
                 }
         }
     }
-
-    /// The record of a node, null where no window reaches.
-    Record* find(Index i, Index j, Index k);
-    const Record* find(Index i, Index j, Index k) const { return const_cast<TileGrid*>(this)->find(i, j, k); }
-
-  private:
     /// Asks for the next row while one is worked on.
     template <class R>
     static void prefetch(const R* row, Index count)

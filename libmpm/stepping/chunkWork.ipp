@@ -30,6 +30,7 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         ws.values.resize(std::size_t(grid_.largestWindow()));
         ws.gradients.resize(std::size_t(grid_.largestWindow()));
     }
+    openTreatment(ws, tile, pass);
     if (pass.velocity || movesByStrainVelocity(pass))
         grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
     if ((filters() && pass.velocity) || pass.filter)
@@ -38,11 +39,12 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         grid_.copyToWindow(
             tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
     }
-    if ((pass.strain && pass.gradientLane == 1) || (pass.velocity && affine()))
+    const bool gathers = pass.gradient || (pass.strain && !averages());
+    if ((gathers && pass.gradientLane == 1) || (pass.velocity && affine()))
         grid_.copyToWindow(
             tile, ws.gradients.data(), [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
-            filters() ? filterLayer : 0);
-    if (pass.strain && pass.gradientLane != 1)
+            movesFiltered() ? filterLayer : 0);
+    if (gathers && pass.gradientLane != 1)
         grid_.copyToWindow(tile, ws.gradients.data(),
                            [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });
     lap(ws, &PassTimes::toParticles);
@@ -71,10 +73,15 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
     loadDomains(ws, first, count);
 
-    if (pass.velocity || pass.strain || pass.filter)
+    if (pass.pressure)
+        return addPressure(ws, tile, first, count);
+    const bool gathers = pass.gradient || (pass.strain && !averages());
+    if (pass.velocity || gathers || pass.filter || pass.round != Round::none || movesByStrainVelocity(pass))
         withWeights(ws, ws.x, [&](auto& w) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
+            if (pass.round != Round::none)
+                return relaxationRound(ws, w, tile, first, count, pass.round);
             if (pass.filter || (filters() && pass.velocity))
                 gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
             if (pass.velocity)
@@ -101,15 +108,17 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 }
                 lap(ws, &PassTimes::toParticles);
             }
-            if (pass.strain)
+            if (gathers)
             {
                 gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
                 lap(ws, &PassTimes::toParticles);
             }
         });
+    if (pass.gradient)
+        addVolumeChange(ws, tile, first, count);
     if (pass.strain)
     {
-        updateStress(ws, first, count, dt);
+        updateStress(ws, tile, first, count, dt);
         lap(ws, &PassTimes::law);
     }
     if (pass.then == Project::nothing)
@@ -137,6 +146,8 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
             transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
             for (int k = 0; k < stressSize<dim>; ++k)
                 transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
+            if (conjugate())
+                takeAveragePressure(ws, tile, x);
         }
         ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
         projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
@@ -213,6 +224,8 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     {
         ahead.add(p.volume0.data());
         ahead.add(p.material.data());
+        for (int k = 0; k < dim * dim && averages(); ++k)
+            ahead.add(gradient_[k].data());
     }
     if (pass.strain || pass.then == Project::forces)
     {
@@ -338,8 +351,10 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
 {
     auto& p = state_.particles;
     alignas(64) double vv[lanes] = {};
-    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
-    const bool flip = scene_.transfer == Transfer::FLIP;
+    const double rate = scene_.filterRate ? *scene_.filterRate * double(scene_.filterInterval) : scene_.picRate;
+    const bool mixes = rate > 0 && (filters() || !scene_.filterRate);
+    const double alpha = mixes ? -std::expm1(-rate * kick_) : 0;
+    const bool flip = scene_.transfer == Transfer::FLIP || scene_.filterRate;
     for (int a = 0; a < dim; ++a)
     {
         const auto& vGrid = filters() ? ws.filtered.v[a] : ws.value.v[a];
@@ -354,7 +369,7 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
         for (int l = 0; l < lanes; ++l)
         {
             vv[l] += ws.v[a][l] * ws.v[a][l];
-            ws.xNew[a][l] = ws.x[a][l] + dt * vGrid[l];
+            ws.xNew[a][l] = ws.x[a][l] + dt * (flip ? ws.value.v[a][l] : vGrid[l]);
         }
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);

@@ -73,7 +73,8 @@ double residual(const state::Ledger& l, double strainEnergy)
     return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
-           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss;
+           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
+           l.gapWork;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -158,6 +159,9 @@ const std::vector<std::string>& budgetColumns()
                                                      "bodyForceWork",
                                                      "finiteStrainWork",
                                                      "staggering",
+                                                     "relaxationLoss",
+                                                     "averagingLoss",
+                                                     "gapWork",
                                                      "residual"};
     return columns;
 }
@@ -179,6 +183,9 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.bodyForceWork,
             l.finiteStrainWork,
             l.staggering - l.initialStaggering,
+            l.relaxationLoss,
+            l.averagingLoss,
+            l.gapWork,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -17,6 +17,8 @@
 #include "transfer/cornerWeights.hpp"
 #include "transfer/gridToParticle.hpp"
 #include "transfer/particleToGrid.hpp"
+#include "transfer/stressTransfer.hpp"
+#include "treatment/tensionGap.hpp"
 
 namespace mpm::stepping
 {
@@ -40,7 +42,7 @@ class ExplicitStepper : public Stepper
     using Domain = typename Weights<Shape>::Domain;
     static constexpr bool hasCorners = requires { Shape::hasCorners; };
 
-    static constexpr int filterLayer = 1; ///< of the nodes: what XPIC and FMPM filter
+    static constexpr int filterLayer = 1; ///< of the nodes: what XPIC and FMPM filter; smoothed stress
 
     enum class Project
     {
@@ -49,9 +51,21 @@ class ExplicitStepper : public Stepper
         forces    ///< mass, momentum and internal force
     };
 
+    /// Rounds of a stress relaxation (stressTreatment.ipp).
+    enum class Round
+    {
+        none,
+        project, ///< sigma to the nodes
+        again,   ///< sigma - S sigma to the particles' correction, and to the nodes
+        finish   ///< the correction
+    };
+
     /// What one pass over the particles does, in this order.
     struct Pass
     {
+        bool pressure = false;     ///< only: add the particles' pressure to their cells
+        Round round = Round::none; ///< only: that of a stress relaxation
+        bool gradient = false;     ///< only: keep velocity gradients and add the volume change to the cells
         bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
         bool filter = false;             ///< gather the velocity being filtered and project it as it is
         bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions
@@ -61,6 +75,13 @@ class ExplicitStepper : public Stepper
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
     };
 
+    bool averages() const { return scene_.treatment.averaging.has_value(); }
+    bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
+    /// Does the step at hand relax stresses?
+    bool relaxes() const
+    {
+        return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
+    }
     /// Node lanes are (v*, w) then.
     bool movesByStrainVelocity(const Pass& pass) const
     {
@@ -74,6 +95,7 @@ class ExplicitStepper : public Stepper
         double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
         double strainWork = 0;       ///< the same with stress and volume after it
         double strainEnergy = 0, finiteStrainWork = 0;
+        double relaxationLoss = 0, averagingLoss = 0, gapWork = 0;
         Vector3 momentum{};
         double fastest = 0; ///< max v.v
         double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
@@ -91,7 +113,13 @@ class ExplicitStepper : public Stepper
         alignas(64) Domain half;
         alignas(64) constitutive::TensorLanes<dim> affine;
         transfer::Values<dim> filtered;
-        alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes];
+        std::vector<double> cells;             ///< means over cells, in the order of the window
+        AlignedVector<Record> stressNodes;     ///< smoothed stress at nodes
+        alignas(64) std::int32_t cell[lanes];  ///< each lane's cell in the window
+        constitutive::StressLanes<dim> smooth; ///< S sigma, or the correction
+        treatment::OpenGap gap;
+        alignas(64) double spread[lanes]; ///< what an average adds to each normal rate of L
+        alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes], volumeMiddle[lanes];
         alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
         alignas(64) constitutive::TensorLanes<dim> L, F;
         alignas(64) double J[lanes];
@@ -102,6 +130,7 @@ class ExplicitStepper : public Stepper
         Weights<Narrow> narrow;
         transfer::ParticleRecords<dim, transfer::Momentum> momentum;
         transfer::ParticleRecords<dim, transfer::Forces> forces;
+        transfer::ParticleRecords<dim, transfer::Stresses> stresses;
         transfer::Prefetch ahead;
         TileSums sums;
         PassTimes times;
@@ -114,6 +143,7 @@ class ExplicitStepper : public Stepper
     void sortAnew();
     void buildTiles();
     void project();
+    void projectAgain(Project what);
     template <class Node>
     void sumWindows(const nodal::NodeRow<dim>& row, const state::Block& block, Node* sum);
     template <class What>
@@ -131,9 +161,33 @@ class ExplicitStepper : public Stepper
         return scene_.stressUpdate == StressUpdate::USF && walls_.empty() ? Project::momentum : Project::forces;
     }
     void particlePass(double dt, const Pass& pass);
+    void strainPass(double dt, int gradientLane, bool moves);
     void moveSurfaces(double dt);
     void book(const Pass& pass);
     void bookStressWork(double dt);
+
+    // remedies for erratic stresses, in stressTreatment.ipp
+    void prepareTreatment();
+    void sizeTreatment();
+    void averageVolumeChange(double dt, int gradientLane);
+    void averagePressure();
+    void sumCells();
+    void correctStress();
+    void sumStress();
+    void leastSquaresCorrection();
+    void openTreatment(Workspace& ws, const state::Tile& tile, const Pass& pass);
+    bool locateCells(Workspace& ws, const Vectors& x, const state::NodeBox& box, int count) const;
+    void addToCells(Workspace& ws, const state::Tile& tile, Index first, int count, const double (&value)[lanes]);
+    void addPressure(Workspace& ws, const state::Tile& tile, Index first, int count);
+    template <class W>
+    void relaxationRound(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count, Round round);
+    void addVolumeChange(Workspace& ws, const state::Tile& tile, Index first, int count);
+    void volumeChange(Workspace& ws, Index first, int count, double (&change)[lanes]) const;
+    void takeAverage(Workspace& ws, const state::Tile& tile, Index first, int count);
+    void loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes], double (&work)[lanes]);
+    void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
+    void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
+    void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
     void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
@@ -151,8 +205,15 @@ class ExplicitStepper : public Stepper
     void advanceAffine(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count);
     int cornerDomains(Workspace& ws, Index first, int count) const;
     bool affine() const { return scene_.transfer == Transfer::APIC || scene_.transfer == Transfer::TPIC; }
-    bool filters() const { return scene_.transfer == Transfer::XPIC || scene_.transfer == Transfer::FMPM; }
-    void updateStress(Workspace& ws, Index first, int count, double dt);
+    /// Does the step at hand filter velocities?
+    bool filters() const
+    {
+        return (scene_.transfer == Transfer::XPIC || scene_.transfer == Transfer::FMPM) &&
+               (!scene_.filterRate || state_.step % scene_.filterInterval == 0);
+    }
+    /// ... and take nothing but the filtered velocity?
+    bool movesFiltered() const { return filters() && !scene_.filterRate; }
+    void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
     void loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
     void forHyperelastic(Index first, int count, Body&& body) const;
@@ -182,6 +243,10 @@ class ExplicitStepper : public Stepper
     state::TileGrid grid_;
     std::array<state::Column<state::Stored>, 3> domain_; ///< half lengths over h, where they follow the stretch
     std::array<state::Column<double>, 3> next_;          ///< positions at the end of the step, between two passes
+    treatment::CellAverage cells_;
+    std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
+    std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
+    double relaxationRate_ = 0;
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread

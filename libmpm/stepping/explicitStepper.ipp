@@ -6,6 +6,7 @@
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
 #include "stepping/stepReports.ipp"
+#include "stepping/stressTreatment.ipp"
 #include "stepping/velocityFilter.ipp"
 
 #include <cmath>
@@ -44,6 +45,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         state.particles.enableAffine();
     if (!affine() && state.particles.hasAffine()) // the state of a run with another transfer
         state.particles.disableAffine();
+    prepareTreatment();
     sortByStoredKeys(state);
 }
 
@@ -69,17 +71,26 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         particlePass(dt, {.velocity = true, .reproject = true});
         moveSurfaces(dt);
         strainVelocities(dt, true);
-        particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .moves = true, .then = Project::forces});
+        strainPass(dt, 1 + dim, true);
         break;
     case StressUpdate::USL:
         solveNodes();
         filterVelocities();
         moveSurfaces(dt);
-        particlePass(dt, {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
+        if (scene_.treatment.any())
+        {
+            particlePass(dt, {.velocity = true});
+            strainPass(dt, 1, true);
+        }
+        else
+            particlePass(dt,
+                         {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);
-        particlePass(dt, {.strain = true, .gradientLane = 1 + dim, .then = Project::forces});
+        strainPass(dt, 1 + dim, false);
+        if (conjugate())
+            projectAgain(Project::forces);
         solveNodes();
         filterVelocities();
         moveSurfaces(dt);
@@ -154,6 +165,8 @@ void ExplicitStepper<dim, Shape>::buildTiles()
     }
     arranged_ = true;
     projected_ = false;
+    if (scene_.treatment.any())
+        sizeTreatment();
 }
 
 /// The first projection of a step, unless the pass that ended the last one has made it.
@@ -162,15 +175,42 @@ void ExplicitStepper<dim, Shape>::project()
 {
     const Project what = firstProjection();
     if (!projected_ || stray_)
-        particlePass(0, {.then = what});
+        projectAgain(what);
     if (stray_) // particles have moved on since they were sorted
     {
         sortAnew();
-        particlePass(0, {.then = what});
+        projectAgain(what);
         if (stray_)
             failOutside();
     }
     projected_ = false;
+}
+
+/// A projection on its own; forces with the pressure of the averages they are conjugate to.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::projectAgain(Project what)
+{
+    if (conjugate() && what == Project::forces)
+    {
+        averagePressure();
+        if (stray_)
+            return;
+    }
+    particlePass(0, {.then = what});
+}
+
+/// Strain and stress, with what is done against erratic stresses; then the next projection, where it can be made yet.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool moves)
+{
+    if (relaxes())
+        correctStress();
+    if (averages())
+        averageVolumeChange(dt, gradientLane);
+    particlePass(dt, {.strain = true,
+                      .gradientLane = gradientLane,
+                      .moves = moves,
+                      .then = conjugate() ? Project::nothing : Project::forces});
 }
 
 template <int dim, class Shape>
@@ -239,6 +279,9 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.strainWork += s.strainWork;
         total.strainEnergy += s.strainEnergy;
         total.finiteStrainWork += s.finiteStrainWork;
+        total.relaxationLoss += s.relaxationLoss;
+        total.averagingLoss += s.averagingLoss;
+        total.gapWork += s.gapWork;
         for (int a = 0; a < dim; ++a)
             total.momentum[a] += s.momentum[a];
         total.fastest = std::max(total.fastest, s.fastest);
@@ -266,6 +309,9 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         work_.ofStrains = total.strainWork;
         ledger.plasticDissipation += total.plasticWork;
         ledger.finiteStrainWork += total.finiteStrainWork;
+        ledger.relaxationLoss += total.relaxationLoss;
+        ledger.averagingLoss += total.averagingLoss;
+        ledger.gapWork += total.gapWork;
         report_.strainEnergy = total.strainEnergy;
         state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;
@@ -280,6 +326,8 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         projected_ = true;
         stray_ = total.stray;
     }
+    if (pass.pressure)
+        stray_ = total.stray;
 }
 
 /// The stress works on three velocities: v_i and v* in the nodal equations, w in the strains. What it does on the

@@ -66,7 +66,8 @@ void ExplicitStepper<dim, Shape>::storedEnergy(const Workspace& ws, Index first,
 
 /// F, V and stress from the velocity gradient.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int count, double dt)
+void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile& tile, Index first, int count,
+                                               double dt)
 {
     auto& p = state_.particles;
     auto& sums = ws.sums;
@@ -76,19 +77,35 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
         transfer::loadLanes(p.F[k].data() + first, count, ws.F[k]);
     for (int k = 0; k < stressSize<dim>; ++k)
         transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
+    transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
+    loadModuli(ws, first, count);
     // What the grid's forces do work on is L as it is; what the law sees is L over the mid-step configuration.
     alignas(64) double workOfForces[lanes], workOfForcesAfter[lanes];
     constitutive::StressLanes<dim> strainOfForces;
+    if (averages())
+        for (int k = 0; k < dim * dim; ++k)
+            transfer::loadLanes(gradient_[k].data() + first, count, ws.L[k]);
+    if (conjugate())
+        takeAverage(ws, tile, first, count);
     constitutive::strainIncrement(ws.L, dt, strainOfForces);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
+    sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
+    if (relaxes())
+    {
+        relaxStress(ws, first, count, dt, strainOfForces);
+        workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
+    }
+    const bool spreads = averages() && !conjugate();
+    if (spreads)
+    {
+        takeAverage(ws, tile, first, count);
+        loseToAverage(ws, dt, ws.volumeBefore, workOfForces);
+    }
     constitutive::toMidStep(scene_.stressUpdate == StressUpdate::USF ? constitutive::TakenOver::end
                                                                      : constitutive::TakenOver::start,
                             dt, ws.L);
     constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
-    transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
-    loadModuli(ws, first, count);
     alignas(64) double energyBefore[lanes], energy[lanes], workTurned[lanes], workAfter[lanes];
-    sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
     if (anyHyperelastic_)
@@ -103,12 +120,18 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     chunk.F = &ws.F;
     chunk.L = &ws.L;
     chunk.dt = dt;
-    callLaws(first, count, chunk);
-    ws.ahead.some(5);
-
     transfer::loadLanesOrZero(p.volume0.data() + first, count, ws.volume);
     for (int l = 0; l < lanes; ++l)
+    {
         ws.volume[l] *= ws.J[l];
+        ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
+    }
+    if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart())
+        callTreatedLaws(ws, first, count, dt);
+    else
+        callLaws(first, count, chunk);
+    ws.ahead.some(5);
+
     constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
     if (!transfer::allWithin(ws.J, none, immense) && sums.badParticle < 0)
         for (int l = 0; l < count; ++l)
@@ -139,6 +162,8 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
+    if (spreads)
+        loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
     if (anyHyperelastic_)
     {
@@ -156,18 +181,16 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, Index first, int c
         energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown +
                           0.25 * (ws.volumeBefore[l] + ws.volume[l]) * (workTurned[l] + workAfter[l]) -
                           0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
-        workTurned[l] = ws.volumeBefore[l];
-        ws.volumeBefore[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
     if (anyHyperelastic_)
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
             for (int l = 0; l < lanes; ++l)
                 if (mine(l))
                     energyBefore[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                                      0.5 * (workTurned[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
+                                      0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
         });
     sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
-    sums.plasticWork += transfer::sumOfProducts(ws.volumeBefore, chunk.plasticWork);
+    sums.plasticWork += transfer::sumOfProducts(ws.volumeMiddle, chunk.plasticWork);
     sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
     sums.apexReturns += chunk.apexReturns;
     sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));

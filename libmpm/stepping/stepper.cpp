@@ -21,6 +21,8 @@ std::string methodText(const Scene& scene)
     std::string text = stressUpdateName(scene.stressUpdate) + ", " + names[int(scene.transfer)];
     if (scene.transfer == Transfer::XPIC || scene.transfer == Transfer::FMPM)
         text += fmt::format(" of order {}", scene.transferOrder);
+    if (scene.filterRate)
+        text += fmt::format(", {:g} 1/s of it", *scene.filterRate);
     if (scene.picRate > 0)
         text += fmt::format(" with {:g} 1/s of PIC", scene.picRate);
     if (scene.moveByStrainVelocity)

@@ -15,6 +15,7 @@
 #include "nodal/boundaries.hpp"
 #include "splitting/splitParticles.hpp"
 #include "state/state.hpp"
+#include "treatment/stressTreatment.hpp"
 
 #include <memory>
 #include <optional>
@@ -77,6 +78,11 @@ struct Scene
     /// MUSL with FLIP: particles move by the velocities w they are strained with, dt sum N w. By v* (METHOD Eq. 5) the
     /// difference of the two leaves positions and F an order apart: temporal errors of order 1, not 2.
     bool moveByStrainVelocity = false;
+    /// XPIC and FMPM: share of the filter mixed in per second [1/s], every filterInterval steps; else FLIP. None: in full,
+    /// every step.
+    std::optional<double> filterRate;
+    Index filterInterval = 1;
+    treatment::StressTreatment treatment; ///< of erratic stresses
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
     double picRate = 0;          ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20;     ///< steps between sorts of the particles

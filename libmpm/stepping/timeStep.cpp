@@ -31,7 +31,7 @@ double methodCourant(int dim, bool ignoresMass, const Scene& scene, double small
         return rungeKuttaCourant(
             scene.timeIntegration == TimeIntegration::RK4 ? RungeKuttaOrder::RK4 : RungeKuttaOrder::RK2, dim);
     const double plain = criticalCourant(dim, ignoresMass, scene.stressUpdate, smallestNodalMassFraction);
-    if (scene.transfer == Transfer::FMPM)
+    if (scene.transfer == Transfer::FMPM && !scene.filterRate)
         return plain / std::sqrt(double(scene.transferOrder));
     if (!carriesAffineField(scene))
         return plain;

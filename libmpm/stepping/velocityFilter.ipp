@@ -9,6 +9,8 @@
 //
 //     transfer   XPIC;      // mpmSchemes; or FMPM
 //     order      2;         // k >= 1
+//     filterRate 5;         // [1/s] absent: in full every step. v_p of FLIP, <- (1 - a) v_p + a v_p(filtered),
+//     filterInterval 10;    // a = 1 - exp(-rate n dt) every n steps: as strong whatever the step is; particles move with v*
 //
 // Cost: k - 1 rounds of a gather and a projection a step. Verified in tests/unit/transferSchemes.cpp.
 #pragma once

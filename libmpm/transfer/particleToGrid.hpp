@@ -127,23 +127,25 @@ inline void addLayer(const R (&sum)[n * n], R* first, Index nx)
     }
 }
 
-/// Sums lanes [l0, l1), which share their first node, and adds them to the nodes. 2D, mass and momentum.
-template <int n>
-inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecords<2, Momentum>& p, int l0, int l1,
-                       HalfRecord* first, Index nx, Index)
+/// Sums lanes [l0, l1), which share their first node, and adds them to the nodes. 2D, records weighted by N as a whole
+/// (mass and momentum; stressTransfer.hpp).
+template <int n, class What>
+inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecords<2, What>& p, int l0, int l1,
+                       typename What::Node* first, Index nx, Index)
 {
-    HalfRecord sum[n * n];
+    using Node = typename What::Node;
+    Node sum[n * n];
     zero(sum);
     for (int l = l0; l < l1; ++l)
     {
-        HalfRecord x[n];
+        Node x[n];
         MPM_UNROLL
         for (int i = 0; i < n; ++i)
-            x[i] = splat<HalfRecord>(w[0].N[i][l]);
+            x[i] = splat<Node>(w[0].N[i][l]);
         MPM_UNROLL
         for (int j = 0; j < n; ++j)
         {
-            const HalfRecord row = splat<HalfRecord>(w[1].N[j][l]) * p.r[l];
+            const Node row = splat<Node>(w[1].N[j][l]) * p.r[l];
             MPM_UNROLL
             for (int i = 0; i < n; ++i)
                 sum[j * n + i] += x[i] * row;
@@ -179,24 +181,25 @@ inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecord
 }
 
 /// 3D, layer by layer so that the sums of a layer stay in registers.
-template <int n>
-inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, Momentum>& p, int l0, int l1,
-                       HalfRecord* first, Index nx, Index nxy)
+template <int n, class What>
+inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, What>& p, int l0, int l1,
+                       typename What::Node* first, Index nx, Index nxy)
 {
+    using Node = typename What::Node;
     for (int k = 0; k < n; ++k)
     {
-        HalfRecord sum[n * n];
+        Node sum[n * n];
         zero(sum);
         for (int l = l0; l < l1; ++l)
         {
-            const HalfRecord layer = splat<HalfRecord>(w[2].N[k][l]) * p.r[l];
+            const Node layer = splat<Node>(w[2].N[k][l]) * p.r[l];
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
-                const HalfRecord row = splat<HalfRecord>(w[1].N[j][l]) * layer;
+                const Node row = splat<Node>(w[1].N[j][l]) * layer;
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    sum[j * n + i] += splat<HalfRecord>(w[0].N[i][l]) * row;
+                    sum[j * n + i] += splat<Node>(w[0].N[i][l]) * row;
             }
         }
         addLayer<n>(sum, first + k * nxy, nx);
