@@ -59,6 +59,14 @@ void append(SmoothedStress& out, const std::vector<const double*>& columns, std:
 }
 } // namespace
 
+std::vector<const double*> stressColumns(const state::Particles& p, StressColumns& widened)
+{
+    std::vector<const double*> columns;
+    for (std::size_t c = 0; c < std::size_t(stressComponents(p.dim)); ++c)
+        columns.push_back(asDoubles(p.stress[c], widened));
+    return columns;
+}
+
 SmoothedStress smoothColumns(const std::vector<const double*>& columns, const state::Particles& p,
                              const WeightTable& table)
 {
@@ -85,10 +93,7 @@ SmoothedStress smoothColumns(const std::vector<const double*>& columns, const st
 
 SmoothedStress smoothStress(const state::Particles& p, const WeightTable& table)
 {
-    std::vector<const double*> columns;
-    std::vector<std::vector<double>> widened; // of floats
-    for (std::size_t c = 0; c < std::size_t(stressComponents(p.dim)); ++c)
-        columns.push_back(asDoubles(p.stress[c], widened));
-    return smoothColumns(columns, p, table);
+    StressColumns widened;
+    return smoothColumns(stressColumns(p, widened), p, table);
 }
 } // namespace mpm::smoothing

@@ -16,6 +16,9 @@ namespace mpm::smoothing
 /// Stress components in storage order, one column each.
 using StressColumns = std::vector<std::vector<double>>;
 
+/// The stresses of particles; where floats are stored, copies that `widened` keeps.
+std::vector<const double*> stressColumns(const state::Particles& particles, StressColumns& widened);
+
 struct SmoothedStress
 {
     std::vector<Vector3> nodePosition; ///< of the nodes that carry mass [m]
