@@ -30,6 +30,8 @@ treatment::VolumetricAveraging readAveraging(const Dictionary& d)
                ? AveragedPart::total
                : AveragedPart::elastic;
     a.conjugate = d.get<bool>({"conjugate", "yes: forces take the averaged pressure", unit::none, {}, false});
+    a.viscosity = d.get<double>({"viscosity", "of volume change the average leaves out, over rho h c_p", unit::none,
+                                 Bound::between(0, 0.5), 0.0});
     return a;
 }
 

@@ -22,6 +22,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("finiteStrainWork", ledger.finiteStrainWork, "J");
     visit("relaxationLoss", ledger.relaxationLoss, "J");
     visit("averagingLoss", ledger.averagingLoss, "J");
+    visit("viscosityLoss", ledger.viscosityLoss, "J");
     visit("gapWork", ledger.gapWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
@@ -42,7 +43,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 41 * 8,
+    static_assert(sizeof(state::Ledger) == 42 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

@@ -144,6 +144,8 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
         plain("tensionGap", p.tensionGap, "1");
     if (p.hasDilationRate())
         plain("dilationRate", p.dilationRate, "1/s");
+    if (p.hasViscousStress())
+        plain("viscousStress", p.viscousStress, "Pa");
 }
 
 void readParticles(const Hdf5File& file, state::Particles& p)
@@ -194,6 +196,11 @@ void readParticles(const Hdf5File& file, state::Particles& p)
         p.keepDilationRate(true);
         plain("dilationRate", p.dilationRate);
     }
+    if (file.exists("/particles/viscousStress"))
+    {
+        p.keepViscousStress(true);
+        plain("viscousStress", p.viscousStress);
+    }
     p.padLastChunk();
 }
 
@@ -214,7 +221,7 @@ void readLedger(const Hdf5File& file, state::Ledger& ledger)
 {
     forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
         using Value = std::decay_t<decltype(value)>;
-        const bool late = name == "relaxationLoss" || name == "averagingLoss" || name == "gapWork";
+        const bool late = name == "relaxationLoss" || name == "averagingLoss" || name == "viscosityLoss" || name == "gapWork";
         if (late && !file.exists("/ledger/" + name))
             return; // a file of a version that had none
         if constexpr (std::is_same_v<Value, Vector3>)

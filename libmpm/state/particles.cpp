@@ -73,6 +73,11 @@ void Particles::keepDilationRate(bool keep)
     keepColumn(keep, mass.size(), hasDilationRate_, dilationRate);
 }
 
+void Particles::keepViscousStress(bool keep)
+{
+    keepColumn(keep, mass.size(), hasViscousStress_, viscousStress);
+}
+
 void Particles::padLastChunk()
 {
     if (size_ == 0)

@@ -53,11 +53,13 @@ struct Particles
     std::array<Column<double>, 9> affine;
     Column<double> tensionGap;   ///< volumetric strain a particle is open by (treatment/tensionGap.hpp) [-]
     Column<double> dilationRate; ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
+    Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
 
     bool hasX() const { return hasX_; }
     bool hasAffine() const { return hasAffine_; }
     bool hasTensionGap() const { return hasTensionGap_; }
     bool hasDilationRate() const { return hasDilationRate_; }
+    bool hasViscousStress() const { return hasViscousStress_; }
     /// Adds the columns of X: the positions as they are.
     void enableX();
     /// Adds the columns of the affine part: zero.
@@ -67,6 +69,7 @@ struct Particles
     /// Adds the column, zero, or takes it away; does nothing where that is so already.
     void keepTensionGap(bool keep);
     void keepDilationRate(bool keep);
+    void keepViscousStress(bool keep);
 
     Index size() const { return size_; }
     Index chunks() const { return (size_ + lanes - 1) / lanes; }
@@ -108,10 +111,13 @@ struct Particles
             visit(tensionGap);
         if (hasDilationRate_)
             visit(dilationRate);
+        if (hasViscousStress_)
+            visit(viscousStress);
     }
 
   private:
-    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false;
+    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false,
+         hasViscousStress_ = false;
     Index size_ = 0;
 };
 } // namespace mpm::state

@@ -27,6 +27,7 @@ struct Ledger
     double finiteStrainWork = 0;  ///< elastic energy that finite steps of a rate law make (energyBudget.hpp)
     double relaxationLoss = 0;    ///< elastic energy that stress relaxation takes (treatment/stressRelaxation.hpp)
     double averagingLoss = 0;     ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
+    double viscosityLoss = 0;     ///< taken by its viscosity
     double gapWork = 0;           ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
     double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2

@@ -148,7 +148,13 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
             if (conjugate())
                 takeAveragePressure(ws, tile, x);
+            if (viscous())
+                transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
         }
+        if (viscous())
+            for (int a = 0; a < dim; ++a)
+                for (int l = 0; l < lanes; ++l)
+                    ws.law.stress[a][l] += ws.viscous[l];
         ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
         projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
         if (affine())

@@ -74,7 +74,7 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.gapWork;
+           l.viscosityLoss - l.gapWork;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -161,6 +161,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "staggering",
                                                      "relaxationLoss",
                                                      "averagingLoss",
+                                                     "viscosityLoss",
                                                      "gapWork",
                                                      "residual"};
     return columns;
@@ -185,6 +186,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.staggering - l.initialStaggering,
             l.relaxationLoss,
             l.averagingLoss,
+            l.viscosityLoss,
             l.gapWork,
             residual(l, t.strainEnergy)};
 }

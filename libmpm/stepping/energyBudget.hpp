@@ -13,6 +13,7 @@
 ///     relaxationLoss       sum V (u - u~) + V (s - s~) : e/2, s~ the stress before a step after relaxation
 ///     averagingLoss        sum (V s~ + V' S) : (e - e_a)/2 with e_a the strains after volumetric averaging; 0 where it
 ///                          is conjugate: forces then do their work on e_a
+///     viscosityLoss        sum (V q + V' q') tr e/2, q the viscous normal stress of volumetric averaging in the forces
 ///     gapWork              sum V p_mid (g' - g) of tension gaps, given back when they close
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy

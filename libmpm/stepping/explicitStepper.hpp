@@ -76,6 +76,7 @@ class ExplicitStepper : public Stepper
     };
 
     bool averages() const { return scene_.treatment.averaging.has_value(); }
+    bool viscous() const { return scene_.treatment.hasViscosity(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
     bool relaxes() const
@@ -95,7 +96,7 @@ class ExplicitStepper : public Stepper
         double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
         double strainWork = 0;       ///< the same with stress and volume after it
         double strainEnergy = 0, finiteStrainWork = 0;
-        double relaxationLoss = 0, averagingLoss = 0, gapWork = 0;
+        double relaxationLoss = 0, averagingLoss = 0, viscosityLoss = 0, gapWork = 0;
         Vector3 momentum{};
         double fastest = 0; ///< max v.v
         double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
@@ -118,6 +119,7 @@ class ExplicitStepper : public Stepper
         alignas(64) std::int32_t cell[lanes];  ///< each lane's cell in the window
         constitutive::StressLanes<dim> smooth; ///< S sigma, or the correction
         treatment::OpenGap gap;
+        alignas(64) double viscous[lanes], viscosity[lanes]; ///< normal stress of hourglass viscosity; eta
         alignas(64) double spread[lanes]; ///< what an average adds to each normal rate of L
         alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes], volumeMiddle[lanes];
         alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
@@ -185,6 +187,8 @@ class ExplicitStepper : public Stepper
     void volumeChange(Workspace& ws, Index first, int count, double (&change)[lanes]) const;
     void takeAverage(Workspace& ws, const state::Tile& tile, Index first, int count);
     void loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes], double (&work)[lanes]);
+    void loadViscosity(Workspace& ws, Index first, int count) const;
+    double viscousWork(Workspace& ws, const constitutive::StressLanes<dim>& strain, const double (&volume)[lanes]) const;
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
     void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
@@ -247,6 +251,7 @@ class ExplicitStepper : public Stepper
     std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
     std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
     double relaxationRate_ = 0;
+    std::vector<double> viscosities_; ///< eta of each material
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread

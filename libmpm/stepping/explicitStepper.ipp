@@ -281,6 +281,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.finiteStrainWork += s.finiteStrainWork;
         total.relaxationLoss += s.relaxationLoss;
         total.averagingLoss += s.averagingLoss;
+        total.viscosityLoss += s.viscosityLoss;
         total.gapWork += s.gapWork;
         for (int a = 0; a < dim; ++a)
             total.momentum[a] += s.momentum[a];
@@ -311,6 +312,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.finiteStrainWork += total.finiteStrainWork;
         ledger.relaxationLoss += total.relaxationLoss;
         ledger.averagingLoss += total.averagingLoss;
+        ledger.viscosityLoss += total.viscosityLoss;
         ledger.gapWork += total.gapWork;
         report_.strainEnergy = total.strainEnergy;
         state_.largestJacobian = total.largestJacobian;

@@ -90,6 +90,13 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     constitutive::strainIncrement(ws.L, dt, strainOfForces);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
+    if (viscous())
+    {
+        transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
+        const double work = viscousWork(ws, strainOfForces, ws.volumeBefore);
+        sums.strainWorkBefore += work;
+        sums.viscosityLoss += 0.5 * work;
+    }
     if (relaxes())
     {
         relaxStress(ws, first, count, dt, strainOfForces);
@@ -162,6 +169,16 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
+    if (viscous())
+    {
+        loadViscosity(ws, first, count);
+        for (int l = 0; l < lanes; ++l)
+            ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
+        transfer::storeLanes(p.viscousStress.data() + first, count, ws.viscous);
+        const double work = viscousWork(ws, strainOfForces, ws.volume);
+        sums.strainWork += work;
+        sums.viscosityLoss += 0.5 * work;
+    }
     if (spreads)
         loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);

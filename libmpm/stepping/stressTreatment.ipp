@@ -15,6 +15,11 @@ void ExplicitStepper<dim, Shape>::prepareTreatment()
 {
     state_.particles.keepTensionGap(scene_.treatment.tensionGap);
     state_.particles.keepDilationRate(scene_.treatment.averagesElasticPart());
+    state_.particles.keepViscousStress(viscous());
+    for (const auto& material : scene_.materials)
+        if (viscous())
+            viscosities_.push_back(scene_.treatment.averaging->viscosity * material.density * state_.grid.h *
+                                   material.waveSpeed());
     if (scene_.treatment.relaxation)
         relaxationRate_ = treatment::relaxationRate(*scene_.treatment.relaxation,
                                                     fastestWave(state_, scene_.materials), state_.grid.h);
@@ -192,6 +197,31 @@ void ExplicitStepper<dim, Shape>::loseToAverage(Workspace& ws, double dt, const 
         work[l] += dt * ws.spread[l] * normal;
     }
     ws.sums.averagingLoss += transfer::sumOfProducts(volume, lost);
+}
+
+/// eta of each lane's material.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::loadViscosity(Workspace& ws, Index first, int count) const
+{
+    const std::int32_t* material = state_.particles.material.data() + first;
+    for (int l = 0; l < lanes; ++l)
+        ws.viscosity[l] = viscosities_[std::size_t(material[l < count ? l : 0])];
+}
+
+/// sum V q tr e.
+template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::viscousWork(Workspace& ws, const constitutive::StressLanes<dim>& strain,
+                                                const double (&volume)[lanes]) const
+{
+    alignas(64) double work[lanes];
+    for (int l = 0; l < lanes; ++l)
+    {
+        double trace = 0;
+        for (int a = 0; a < dim; ++a)
+            trace += strain[a][l];
+        work[l] = ws.viscous[l] * trace;
+    }
+    return transfer::sumOfProducts(volume, work);
 }
 
 /// Adds the mean of the d normal stresses to the cells.

@@ -13,6 +13,8 @@ std::string describe(const VolumetricAveraging& a)
                                                                        a.repeats);
     if (a.of == AveragedPart::elastic)
         text += " (elastic part)";
+    if (a.viscosity > 0)
+        text += fmt::format(", viscosity {:g} rho h c_p", a.viscosity);
     return text + (a.conjugate ? ", conjugate forces" : "");
 }
 

@@ -21,9 +21,15 @@
 /// V: they do exactly the work the strains say, averagingLoss is 0. The price is noise: stresses that equilibrium asks of
 /// A* s need not be smooth.
 ///
+/// viscosity: volume change that the average leaves out has no stiffness; it would linger in the velocities and feed the
+/// noise of stresses. A pressure -eta (tr D - theta) in the forces, eta = viscosity rho h c_p, takes that motion away and
+/// leaves alone what the average sees (the hourglass viscosity of Flanagan & Belytschko 1981, doi
+/// 10.1002/nme.1620170504, for the modes of an average). Booked as viscosityLoss.
+///
 /// Sources: mean dilatation of Nagtegaal, Parks & Rice 1974 (doi 10.1016/0045-7825(74)90032-2) and Hughes 1980 (doi
 /// 10.1002/nme.1620150914); cell averages in MPM: Mast, Mackenzie-Helnwein, Arduino, Miller & Shin 2012 (doi
-/// 10.1016/j.jcp.2012.04.032). Repeated hats and averaging the elastic part are ours.
+/// 10.1016/j.jcp.2012.04.032). Repeated hats,
+/// averaging the elastic part and the viscosity are ours.
 ///
 ///     volumetricAveraging          // in stressTreatment of system/mpmSchemes; absent: none
 ///     {
@@ -31,6 +37,7 @@
 ///         repeats    2;            // patch: n
 ///         of         total;        // total | elastic
 ///         conjugate  no;
+///         viscosity  0;            // [-] of rho h c_p, at most 0.5
 ///     }
 ///
 /// Cost: one pass over the particles and sweeps over cells a step. Verified in tests/unit/volumetricAveraging.cpp.
@@ -58,6 +65,7 @@ struct VolumetricAveraging
     int repeats = 2;
     AveragedPart of = AveragedPart::total;
     bool conjugate = false;
+    double viscosity = 0;
 
     int hats() const { return region == AveragingRegion::cell ? 0 : repeats; }
 };
