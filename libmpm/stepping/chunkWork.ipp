@@ -68,9 +68,11 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     for (int a = 0; a < dim; ++a)
     {
         transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
-        transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
+        if (!pass.treats())
+            transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
     }
-    transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
+    if (!pass.gradient && !pass.pressure)
+        transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
     loadDomains(ws, first, count);
 
     if (pass.pressure)
@@ -217,13 +219,19 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     for (int a = 0; a < dim; ++a)
     {
         ahead.add(p.x[a].data());
-        ahead.add(p.v[a].data());
+        if (!pass.treats())
+            ahead.add(p.v[a].data());
         if constexpr (Shape::hasDomain) // CPDI: F with it, below
             ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());
         if (pass.velocity || pass.moves)
             ahead.add(next_[a].data());
     }
-    ahead.add(p.mass.data());
+    if (!pass.gradient && !pass.pressure)
+        ahead.add(p.mass.data());
+    if (pass.gradient || pass.pressure)
+        ahead.add(p.volume.data());
+    for (int k = 0; k < stressSize<dim> && pass.round == Round::finish; ++k)
+        ahead.add(correction_[k].data());
     for (int k = 0; k < dim * dim && (pass.strain || hasCorners); ++k)
         ahead.add(p.F[k].data());
     if (pass.strain)
@@ -233,12 +241,11 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
         for (int k = 0; k < dim * dim && averages(); ++k)
             ahead.add(gradient_[k].data());
     }
-    if (pass.strain || pass.then == Project::forces)
-    {
-        for (int k = 0; k < stressSize<dim>; ++k)
-            ahead.add(p.stress[k].data());
+    const bool stresses = pass.strain || pass.then == Project::forces;
+    for (int k = 0; k < stressSize<dim> && (stresses || pass.round == Round::project || pass.round == Round::again); ++k)
+        ahead.add(p.stress[k].data());
+    if (stresses)
         ahead.add(p.volume.data());
-    }
 }
 
 /// Weights at x by the shape, or by its narrow form where no domain of the chunk needs more nodes.

@@ -66,6 +66,8 @@ class ExplicitStepper : public Stepper
         bool pressure = false;     ///< only: add the particles' pressure to their cells
         Round round = Round::none; ///< only: that of a stress relaxation
         bool gradient = false;     ///< only: keep velocity gradients and add the volume change to the cells
+        /// Is it one of these three?
+        bool treats() const { return pressure || gradient || round != Round::none; }
         bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
         bool filter = false;             ///< gather the velocity being filtered and project it as it is
         bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions

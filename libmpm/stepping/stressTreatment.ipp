@@ -382,13 +382,15 @@ void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, in
     alignas(64) double mean[lanes];
     for (int l = 0; l < lanes; ++l)
         mean[l] = treatment::meanStress(chunk, l);
+    bool open = false;
     if (scene_.treatment.tensionGap)
     {
         transfer::loadLanes(p.tensionGap.data() + first, count, ws.gap.gap);
-        treatment::openGap(chunk, ws.gap);
+        open = !transfer::allWithin(ws.gap.gap, 0, 0);
+        treatment::openGap(chunk, ws.gap, open);
     }
     callLaws(first, count, chunk);
-    if (scene_.treatment.tensionGap)
+    if (scene_.treatment.tensionGap && (open || chunk.apexReturns > 0))
     {
         treatment::closeGap(chunk, ws.gap);
         transfer::storeLanes(p.tensionGap.data() + first, count, ws.gap.gap);

@@ -20,8 +20,7 @@ std::string describe(const VolumetricAveraging& a)
 
 std::string describe(const StressRelaxation& r)
 {
-    static const char* const names[] = {"smoothed", "filtered", "leastSquares"};
-    return fmt::format("stress relaxed to {} at {}{} every {} steps", names[int(r.target)],
+    return fmt::format("stress relaxed to {} at {}{} every {} steps", smoothing::stressTargetNames()[std::size_t(r.target)],
                        r.rate ? fmt::format("{:g} 1/s", *r.rate) : "0.6 c_p/h",
                        r.perStrain > 0 ? fmt::format(", at most {:g} |D|,", r.perStrain) : "", r.interval);
 }
@@ -57,7 +56,8 @@ StressTreatment automatic(const std::vector<constitutive::Material>& materials)
     StressTreatment t;
     const bool dilates = firstWith(materials, [](const Law& law) { return law.dilates(); });
     const bool rates = firstWith(materials, [](const Law& law) { return !law.hyperelastic(); });
-    t.averaging = VolumetricAveraging{AveragingRegion::patch, 4, dilates ? AveragedPart::elastic : AveragedPart::total};
+    t.averaging = VolumetricAveraging{AveragingRegion::patch, 6, dilates ? AveragedPart::elastic : AveragedPart::total,
+                                      false, 0.01};
     if (rates)
         t.relaxation = StressRelaxation{};
     t.tensionGap = firstWith(materials, [](const Law& law) { return law.dropsApexVolume(); });

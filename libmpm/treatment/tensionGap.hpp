@@ -34,22 +34,23 @@ double meanStress(const constitutive::Chunk<dim>& chunk, int l)
     return (chunk.stress[0][l] + chunk.stress[1][l] + chunk.stress[2][l]) * (1.0 / 3);
 }
 
-/// Before the law: the strain it sees includes the gap.
+/// Before the law: the strain it sees includes the gap. anyOpen: is there one in the chunk?
 template <int dim>
-void openGap(constitutive::Chunk<dim>& chunk, OpenGap& open)
+void openGap(constitutive::Chunk<dim>& chunk, OpenGap& open, bool anyOpen)
 {
     for (int l = 0; l < lanes; ++l)
     {
         open.pressure[l] = meanStress(chunk, l);
         for (int k = 0; k < 3; ++k)
-        {
             open.diagonal[k][l] = chunk.dStrain[k][l];
-            chunk.dStrain[k][l] += open.gap[l] * (1.0 / 3);
-        }
     }
+    for (int k = 0; k < 3 && anyOpen; ++k)
+        for (int l = 0; l < lanes; ++l)
+            chunk.dStrain[k][l] += open.gap[l] * (1.0 / 3);
 }
 
-/// After it: the gap that is left, the strain as it was, and plastic work without that of the gap.
+/// After it, where a gap was open or the law returned to its apex: the gap that is left, the strain as it was, and
+/// plastic work without that of the gap.
 template <int dim>
 void closeGap(constitutive::Chunk<dim>& chunk, OpenGap& open)
 {

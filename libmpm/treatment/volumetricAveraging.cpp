@@ -10,7 +10,7 @@ void CellAverage::build(const state::TileGrid& grid)
     std::size_t cells = 0;
     for (const auto& block : grid.blocks())
         cells = std::max(cells, block.start + std::size_t(block.box.size()));
-    for (auto* column : {&volume_, &content_, &hatVolume_, &weighted_})
+    for (auto* column : {&volume_, &content_, &perHat_, &weighted_})
         column->assign(cells, 0.0);
     const int count = int(blocks_.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -46,7 +46,9 @@ void CellAverage::takeMeans()
 
 void CellAverage::weighHats()
 {
-    addHats(volume_, hatVolume_);
+    addHats(volume_, perHat_);
+    for (std::size_t i = 0; i < perHat_.size(); ++i)
+        perHat_[i] = volume_[i] > 0 ? 1 / perHat_[i] : 0;
 }
 
 void CellAverage::average(int hats)
@@ -60,7 +62,7 @@ void CellAverage::average(int hats)
             weighted_[i] = volume_[i] * content_[i];
         addHats(weighted_, content_);
         for (std::size_t i = 0; i < content_.size(); ++i)
-            content_[i] = volume_[i] > 0 ? content_[i] / hatVolume_[i] : 0;
+            content_[i] *= perHat_[i];
     }
 }
 
@@ -72,7 +74,7 @@ void CellAverage::averageAdjoint(int hats)
     for (int r = 0; r < hats; ++r)
     {
         for (std::size_t i = 0; i < content_.size(); ++i)
-            weighted_[i] = volume_[i] > 0 ? volume_[i] * content_[i] / hatVolume_[i] : 0;
+            weighted_[i] = volume_[i] * content_[i] * perHat_[i];
         addHats(weighted_, content_);
     }
 }

@@ -102,7 +102,7 @@ class CellAverage
     int dim_ = 2;
     std::vector<Block> blocks_;
     std::vector<double> volume_, content_;
-    std::vector<double> hatVolume_; ///< sum w_cd V_d
+    std::vector<double> perHat_; ///< 1/sum w_cd V_d, 0 where there is nothing
     std::vector<double> weighted_;
 };
 } // namespace mpm::treatment
