@@ -27,10 +27,10 @@
 /// axis and cell, without surfaces, all three remove the checkerboard of particles entirely.
 ///
 /// Few particles: second moments about the node's centre of mass, per mass, have eigenvalues l >= 0 [m^2]. The slope
-/// along such an eigenvector takes 1/l for l >= l_0 = 1e-8 h^2 and l (3 - 2 l/l_0)/l_0^2 below, which joins smoothly and
+/// along such an eigenvector takes 1/l for l >= l_0 = 1e-12 h^2 and l (3 - 2 l/l_0)/l_0^2 below, which joins smoothly and
 /// goes to 0: one particle, or a line of them, is fitted along the directions it has and by its mean in the others (l_0:
-/// particles within 1e-4 h of a plane are in it). Such a fit lies between two orthogonal projections, so all of the
-/// above holds, but linear fields are then changed by up to 1e-4 h |gradient|.
+/// particles within 1e-6 h of a plane are in it). Such a fit lies between two orthogonal projections, so all of the
+/// above holds, but linear fields are then changed by up to 1e-6 h |gradient|.
 ///
 /// Price with four columns, uGIMP in 2D, one thread, per particle: PRICE.
 /// Sums are those of one thread bit by bit for any number of threads. Floats (MPM_STORAGE) are widened first.
