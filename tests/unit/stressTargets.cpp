@@ -1,10 +1,10 @@
-#include "base/error.hpp"
 #include "smoothing/stressTargets.hpp"
+#include "base/error.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <Eigen/Dense>
 #include <cmath>
+#include <Eigen/Dense>
 #include <omp.h>
 #include <random>
 
@@ -159,7 +159,8 @@ TEST_CASE("targets are symmetric in the inner product of masses, between 0 and 1
     for (const int dim : {2, 3})
         for (const bool periodic : {false, true})
         {
-            auto state = lattice(dim, dim == 2 ? std::array<Index, 3>{5, 6, 1} : std::array<Index, 3>{4, 5, 4}, periodic);
+            auto state =
+                lattice(dim, dim == 2 ? std::array<Index, 3>{5, 6, 1} : std::array<Index, 3>{4, 5, 4}, periodic);
             disturb(state);
             if (periodic)
                 for (std::size_t a = 0; a < std::size_t(dim); ++a)
@@ -170,7 +171,8 @@ TEST_CASE("targets are symmetric in the inner product of masses, between 0 and 1
                 const auto table = weightTable(state, shape);
                 for (const auto target : targets)
                 {
-                    INFO(dim << "D " << shape << (periodic ? " periodic " : " ") << stressTargetNames()[std::size_t(target)]);
+                    INFO(dim << "D " << shape << (periodic ? " periodic " : " ")
+                             << stressTargetNames()[std::size_t(target)]);
                     checkOperator(target, state, table);
                 }
             }
@@ -243,8 +245,7 @@ TEST_CASE("least squares leave linear fields alone at corners, walls and a slopi
         REQUIRE(kept > 90);
         p.resize(Index(kept));
         p.padLastChunk();
-        const Values linear =
-            field(p, [](double x, double y, double z) { return 0.3 + 2 * x - 3 * y + 1.5 * z; });
+        const Values linear = field(p, [](double x, double y, double z) { return 0.3 + 2 * x - 3 * y + 1.5 * z; });
         for (const auto& shape : shapeNames())
         {
             INFO(dim << "D " << shape);
@@ -283,11 +284,11 @@ TEST_CASE("stripes at a free surface leave what can be worked out by hand")
     // linear shapes, stripes +1, -1, +1, ... from the surface y = 0 on, at h/4, 3h/4, ...: only the node at the surface
     // sees them (3/4 - 1/4 = 1/2; its line is that of the two particles next to it, which it cannot tell from noise)
     const auto state = lattice(2, {4, 6, 1});
-    const Values stripes = field(state.particles, [](double, double y, double) { return int(y / (h / 2)) % 2 ? -1.0 : 1.0; });
+    const Values stripes =
+        field(state.particles, [](double, double y, double) { return int(y / (h / 2)) % 2 ? -1.0 : 1.0; });
     const auto table = weightTable(state, "linear");
-    const double expected[3][4] = {{3. / 8, 1. / 8, 0, 0},
-                                   {63. / 128, 13. / 128, -9. / 128, -3. / 128},
-                                   {3. / 4, -1. / 4, 0, 0}};
+    const double expected[3][4] = {
+        {3. / 8, 1. / 8, 0, 0}, {63. / 128, 13. / 128, -9. / 128, -3. / 128}, {3. / 4, -1. / 4, 0, 0}};
     for (const auto target : targets)
     {
         const Values out = apply(target, state, table, stripes);
