@@ -43,7 +43,8 @@
 ///     const auto table = weightTable(state, "uGIMP");
 ///     StressColumns target;
 ///     stressTarget(StressTarget::leastSquares, state.particles, table, target); // its stresses
-/// Throws InputError: a table of another number of particles. Verified in tests/unit/stressTargets.cpp.
+/// Throws InputError: a table of another number of particles. Verified in tests/unit/stressTargets.cpp,
+/// stressTargetFields.cpp.
 #include "smoothing/smoothStress.hpp"
 
 namespace mpm::smoothing

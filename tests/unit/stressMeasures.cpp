@@ -80,7 +80,8 @@ TEST_CASE("noise beyond the filter is that of particles, the floor that of the f
                 {
                     // (1 - lambda)^2, and of the wave t^3/64 from particle to particle, which no node sees
                     wave = noise.beyondFilter;
-                    CHECK(wave == Approx(std::hypot(lost * lost, t * t * t / 64) * rms / std::sqrt(size)).epsilon(0.05));
+                    CHECK(wave ==
+                          Approx(std::hypot(lost * lost, t * t * t / 64) * rms / std::sqrt(size)).epsilon(0.05));
                 }
                 else
                     CHECK(noise.beyondFilter == Approx(std::hypot(wave, amplitude / std::sqrt(size))));
