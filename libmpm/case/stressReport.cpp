@@ -95,6 +95,8 @@ std::vector<Value> values(const StressReport& r, bool against)
     out.insert(out.end(), more.begin(), more.end());
     if (against)
         appendComparison(out, r.against);
+    out.push_back({"noiseBeyondFilter", r.filtered.beyondFilter}); // behind all others: columns keep their places
+    out.push_back({"noiseFloorOfField", r.filtered.floorOfField});
     return out;
 }
 
@@ -136,6 +138,7 @@ StressReport stressReport(const state::State& state, const StressReporting& with
     out.particles = state.particles.size();
     out.quality = smoothing::stressQuality(state, table, smoothed, with.gravity);
     out.noise = smoothing::componentNoise(state.particles, smoothed);
+    out.filtered = smoothing::filteredNoise(state.particles, table, smoothed);
     out.checkerboard = smoothing::checkerboard(state);
     out.admissibility = smoothing::admissibility(state, with.materials, out.noise.scale);
     out.volume = smoothing::volumeBudget(state, with.materials, with.elasticVolumeAtStart);

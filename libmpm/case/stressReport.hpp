@@ -39,6 +39,11 @@
 ///     relativeErrorAgainstRaw, relativeErrorAgainstSmoothed
 ///                          the same over the RMS of the other's field there
 ///     massCompared         share of our mass where the other has material; not numbers at times the other has not got
+/// and at the end:
+///     noiseBeyondFilter, noiseFloorOfField
+///                          of sigma_yy: what is no part of the filtered field f, and the N that f alone has, both over
+///                          RMS(smoothed) (smoothing/filteredNoise.hpp). noiseYY cannot fall below the second unless
+///                          the field is made smoother than it is
 ///
 /// Stress relaxation that acts at intervals does so at the start of a step, so the state stored before it is that of
 /// the most noise: pick a writeInterval of a whole number of intervals.
@@ -47,6 +52,7 @@
 #include "smoothing/admissibility.hpp"
 #include "smoothing/checkerboard.hpp"
 #include "smoothing/componentNoise.hpp"
+#include "smoothing/filteredNoise.hpp"
 #include "smoothing/referenceField.hpp"
 #include "smoothing/stressQuality.hpp"
 #include "smoothing/volumeBudget.hpp"
@@ -73,6 +79,7 @@ struct StressReport
     Index particles = 0;
     smoothing::StressQuality quality; ///< along gravity
     smoothing::ComponentNoise noise;
+    smoothing::FilteredNoise filtered;
     smoothing::Checkerboard checkerboard;
     smoothing::Admissibility admissibility;
     smoothing::VolumeBudget volume;

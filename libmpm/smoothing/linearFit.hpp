@@ -1,54 +1,33 @@
 #pragma once
 /// The linear fields that fit particle values best at each node: the operator `leastSquares` of stressTargets.hpp.
 #include "smoothing/nodeSums.hpp"
+#include "smoothing/rootOfInverse.hpp"
 #include "state/particles.hpp"
-
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 
 namespace mpm::smoothing
 {
-template <int dim>
-using Matrix = Eigen::Matrix<double, dim, dim>;
-
-/// 1/C on symmetric positive semidefinite matrices; eigenvalues below `least` take the ramp of stressTargets.hpp.
-template <int dim>
-Matrix<dim> boundedInverse(const Matrix<dim>& C, double least)
-{
-    // The smallest eigenvalue is at least det/trace^(dim - 1): far above the ramp, and of good condition?
-    const double trace = C.trace();
-    if (C.determinant() > 1e4 * least * (dim == 3 ? trace * trace : trace))
-        return C.inverse();
-    Matrix<dim> values = C, vectors = Matrix<dim>::Identity();
-    for (int sweep = 0; sweep < 12; ++sweep)
-        for (int a = 0; a < dim; ++a)
-            for (int b = a + 1; b < dim; ++b)
-            {
-                Eigen::JacobiRotation<double> turn;
-                turn.makeJacobi(values, a, b);
-                values.applyOnTheRight(a, b, turn);
-                values.applyOnTheLeft(a, b, turn.adjoint());
-                vectors.applyOnTheRight(a, b, turn);
-            }
-    Matrix<dim> inverse = Matrix<dim>::Zero();
-    for (int a = 0; a < dim; ++a)
-    {
-        const double l = std::max(0.0, values(a, a));
-        inverse += (l >= least ? 1 / l : l * (3 - 2 * l / least) / (least * least)) * vectors.col(a) *
-                   vectors.col(a).transpose();
-    }
-    return inverse;
-}
-
 /// Best linear fields at nodes.
-template <int dim>
+template <std::size_t dim>
 class LinearFit
 {
   public:
     LinearFit(const state::Particles& p, const WeightTable& table) : p_(p), table_(table)
     {
+        // about the centres of mass nothing cancels, however close the particles of a node are
         constexpr std::size_t moments = 1 + dim + dim * (dim + 1) / 2;
+        origin_ = table.position;
+        const auto centres = sumAtNodes<Values<1 + dim>>(
+            table, [](std::size_t i) { return i; },
+            [&](Values<1 + dim>& sum, std::size_t i, std::size_t node, double weight) {
+                const double share = weight * p.mass[i];
+                const auto d = offset(i, node);
+                sum[0] += share;
+                for (std::size_t a = 0; a < dim; ++a)
+                    sum[1 + a] += share * d[a];
+            });
+        for (std::size_t node = 0; node < centres.size(); ++node)
+            for (std::size_t a = 0; a < dim && centres[node][0] > 0; ++a)
+                origin_[node][a] += centres[node][1 + a] / centres[node][0];
         const auto sums = sumAtNodes<Values<moments>>(
             table, [&](std::size_t i) { return i; },
             [&](Values<moments>& sum, std::size_t i, std::size_t node, double weight) {
@@ -75,7 +54,7 @@ class LinearFit
     template <std::size_t width>
     void apply(const Pointers<width>& in, const std::array<double*, width>& out) const
     {
-        using Field = Values<(1 + dim) * width>; ///< sums of m N s, m N d s; then values at the node, slopes
+        using Field = Values<(1 + dim) * width>; ///< sums of m N s, m N d s; then values at the origin, slopes
         auto fields = sumAtNodes<Field>(
             table_, [](std::size_t i) { return i; },
             [&](Field& sum, std::size_t i, std::size_t node, double weight) {
@@ -110,19 +89,18 @@ class LinearFit
     }
 
   private:
-    using Vector = Eigen::Matrix<double, dim, 1>;
     struct Fit
     {
         double inverseMass = 0;
-        std::array<double, dim> centre{};          ///< of mass, from the node
-        std::array<double, dim * dim> perMoment{}; ///< inverse of the second moments about it
+        std::array<double, dim> centre{}; ///< of mass, from the origin: of the size of round-off
+        Matrix<dim> root{};               ///< K with K K^T = inverse of the second moments about it
     };
 
     std::array<double, dim> offset(std::size_t i, std::size_t node) const
     {
         std::array<double, dim> d;
         for (std::size_t a = 0; a < dim; ++a)
-            d[a] = p_.x[a][i] - table_.position[node][a];
+            d[a] = p_.x[a][i] - origin_[node][a];
         return d;
     }
 
@@ -132,14 +110,12 @@ class LinearFit
         out.inverseMass = 1 / sum[0];
         Matrix<dim> C;
         const double* second = sum + 1 + dim;
-        for (int a = 0; a < dim; ++a)
-            out.centre[std::size_t(a)] = sum[1 + a] / sum[0];
-        for (int a = 0; a < dim; ++a)
-            for (int b = a; b < dim; ++b)
-                C(a, b) = C(b, a) =
-                    *second++ / sum[0] - out.centre[std::size_t(a)] * out.centre[std::size_t(b)]; // per mass
-        const Matrix<dim> inverse = boundedInverse<dim>(C, 1e-8 * h * h) * out.inverseMass;
-        std::copy_n(inverse.data(), dim * dim, out.perMoment.begin());
+        for (std::size_t a = 0; a < dim; ++a)
+            out.centre[a] = sum[1 + a] * out.inverseMass;
+        for (std::size_t a = 0; a < dim; ++a)
+            for (std::size_t b = a; b < dim; ++b)
+                C[a][b] = C[b][a] = *second++ * out.inverseMass - out.centre[a] * out.centre[b];
+        out.root = rootOfInverse<dim>(C, 1e-12 * h * h);
         return out;
     }
 
@@ -148,22 +124,29 @@ class LinearFit
     {
         for (std::size_t c = 0; c < width; ++c)
         {
-            const double sum = field[c];
-            Vector moment, slope;
+            const double mean = field[c] *= fit.inverseMass;
+            std::array<double, dim> moment, slope{};
             for (std::size_t a = 0; a < dim; ++a)
-                moment[Index(a)] = field[(1 + a) * width + c] - fit.centre[a] * sum;
-            slope = Eigen::Map<const Matrix<dim>>(fit.perMoment.data()) * moment;
-            field[c] = fit.inverseMass * sum;
+                moment[a] = field[(1 + a) * width + c] * fit.inverseMass - fit.centre[a] * mean;
+            for (std::size_t k = 0; k < dim; ++k)
+            {
+                double part = 0;
+                for (std::size_t a = 0; a < dim; ++a)
+                    part += fit.root[a][k] * moment[a];
+                for (std::size_t a = 0; a < dim; ++a)
+                    slope[a] += fit.root[a][k] * part;
+            }
             for (std::size_t a = 0; a < dim; ++a)
             {
-                field[(1 + a) * width + c] = slope[Index(a)];
-                field[c] -= slope[Index(a)] * fit.centre[a];
+                field[(1 + a) * width + c] = slope[a];
+                field[c] -= slope[a] * fit.centre[a];
             }
         }
     }
 
     const state::Particles& p_;
     const WeightTable& table_;
+    std::vector<Vector3> origin_; ///< of the fields [m]
     std::vector<Fit> fits_;
 };
 } // namespace mpm::smoothing

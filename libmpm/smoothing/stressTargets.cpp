@@ -108,7 +108,7 @@ void inGroups(const std::vector<const double*>& columns, StressColumns& out, Vis
     }
 }
 
-template <int dim>
+template <std::size_t dim>
 void fitLinear(const std::vector<const double*>& columns, const state::Particles& p, const WeightTable& table,
                StressColumns& out)
 {

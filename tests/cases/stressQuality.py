@@ -125,6 +125,30 @@ class StressQuality(unittest.TestCase):
             with h5py.File(self.case / time / "state.h5") as file:
                 self.assertEqual(sorted(file["derived"]), ["overburden", "smoothedStress"])
 
+    def test_noise_beyond_the_filter_by_hand(self):
+        self.good()
+        self.assertEqual(list(rows(self.case)[0])[-2:], ["noiseBeyondFilter", "noiseFloorOfField"])
+        for row, time in zip(rows(self.case), ("0", "0.25", "0.5")):
+            with h5py.File(self.case / time / "state.h5") as file:
+                h, origin = float(file["grid/cellSize"][()]), file["grid/origin"][:2]
+                x, mass, raw = (file["particles/position"][:], file["particles/mass"][:], file["particles/stress"][:, 1])
+            weights = [hats(place[:2], origin, h) for place in x]
+
+            def smooth(values):
+                sums = {}
+                for own, m, value in zip(weights, mass, values):
+                    for node, w in own:
+                        sums[node] = sums.get(node, np.zeros(2)) + w * m * np.array([1, value])
+                return np.array([sum(w * sums[node][1] / sums[node][0] for node, w in own) for own in weights])
+
+            def rms(values):
+                return math.sqrt(np.mean(values**2))
+            once = smooth(raw)
+            kept = 2 * once - smooth(once)
+            self.assertAlmostEqual(row["noiseBeyondFilter"], rms(raw - kept) / rms(once), 10)
+            self.assertAlmostEqual(row["noiseFloorOfField"], rms(kept - smooth(kept)) / rms(once), 10)
+            self.assertGreater(row["noiseBeyondFilter"], 1e-3)
+
     def test_noise_energy_volume_and_tension_against_the_state(self):
         self.good(name="smoothStress")
         table = self.good()

@@ -7,6 +7,7 @@
 #include "smoothing/admissibility.hpp"
 #include "smoothing/checkerboard.hpp"
 #include "smoothing/componentNoise.hpp"
+#include "smoothing/filteredNoise.hpp"
 #include "smoothing/volumeBudget.hpp"
 #include "support/particleLattice.hpp"
 
@@ -51,6 +52,42 @@ TEST_CASE("noise of known size: N of every component, shear over its own size an
             CHECK(noise.ofMean[5] == Approx(2e3 / 4e4));
         }
     }
+}
+
+TEST_CASE("noise beyond the filter is that of particles, the floor that of the field")
+{
+    for (const int dim : {2, 3})
+        for (const double shift : {0.0, 0.5})
+        {
+            auto state = lattice(dim, 12, 0.5, true);
+            auto& p = state.particles;
+            const auto n = std::size_t(p.size());
+            // on this lattice hats keep lambda = 1 - 3 t^2/16 of a wave of k h = t << 1, and S f = lambda f
+            const double t = 2 * M_PI / 12, k = t / 0.5, lost = 3. / 16 * t * t, rms = 2e4 / std::sqrt(2);
+            double wave = 0;
+            for (const double amplitude : {0.0, 3e3})
+            {
+                for (std::size_t i = 0; i < n; ++i)
+                    p.stress[1][i] =
+                        -5e4 + 2e4 * std::sin(k * p.x[0][i] + shift) + amplitude * signOfParticle(state, i);
+                const auto table = weightTable(state, "linear");
+                const auto smoothed = smoothStress(p, table);
+                const auto noise = filteredNoise(p, table, smoothed);
+                double size = 0;
+                for (const double value : smoothed.smoothed[1])
+                    size += value * value / double(n);
+                if (amplitude == 0)
+                {
+                    // (1 - lambda)^2, and of the wave t^3/64 from particle to particle, which no node sees
+                    wave = noise.beyondFilter;
+                    CHECK(wave ==
+                          Approx(std::hypot(lost * lost, t * t * t / 64) * rms / std::sqrt(size)).epsilon(0.05));
+                }
+                else
+                    CHECK(noise.beyondFilter == Approx(std::hypot(wave, amplitude / std::sqrt(size))));
+                CHECK(noise.floorOfField == Approx(lost * rms / std::sqrt(size)).epsilon(0.05));
+            }
+        }
 }
 
 TEST_CASE("no checkerboard in linear fields, whatever the particles, and nothing else in a checkerboard")

@@ -171,6 +171,12 @@ TEST_CASE("a report of a heap at rest, and its row")
             CHECK(at("overburdenCorrelation") == Approx(1));
             CHECK(at("overburdenRmsError") < 1e-6);
             CHECK(at("particles") == double(p.size()));
+            CHECK(std::vector<std::string>(names.end() - 2, names.end()) ==
+                  std::vector<std::string>{"noiseBeyondFilter", "noiseFloorOfField"});
+            CHECK(at("noiseBeyondFilter") == report.filtered.beyondFilter);
+            CHECK(at("noiseFloorOfField") == report.filtered.floorOfField);
+            CHECK(at("noiseBeyondFilter") < 0.8 * at("noiseYY")); // nothing but a linear field: all is floor
+            CHECK(at("noiseFloorOfField") == Approx(at("noiseYY")).epsilon(0.5));
             if (against)
                 CHECK(at("relativeErrorAgainstRaw") == Approx(at("errorAgainstRaw") / report.against->reference));
         }
