@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from sceneCase import BUILD, LONG, PROJECT, Run, SceneCase, State, log_number, pressure, record, schemes, set_fields
+from sceneCase import BUILD, LONG, PROJECT, Run, SceneCase, State, log_number, pressure, record, schemes, set_fields, treatment
 
 
 class HardCase(SceneCase):

@@ -70,6 +70,10 @@ class Run:
             raise SystemExit(f"{path}: {count} entries {word}, one is needed")
         path.write_text(text)
 
+    def append(self, file, text):
+        path = self.folder / file
+        path.write_text(path.read_text() + text + "\n")
+
     def edit(self, change, time=-1):
         """Lets change(particles) alter the arrays of a stored state in place (default: the last), before a run."""
         with h5py.File(self.state(time).path, "r+") as file:
@@ -109,13 +113,13 @@ class SceneCase:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def copy(self, variant, *changes):
-        """A fresh copy of the scene; change = (file, word, value)."""
+        """A fresh copy of the scene; change = (file, word, value), or (file, text): one more line at its end."""
         run = Run(self.folder / variant)
         for part in ("geometry", "constant", "system"):
             if (self.scene / part).is_dir():
                 shutil.copytree(self.scene / part, run.folder / part)
         for change in changes:
-            run.set(*change)
+            run.set(*change) if len(change) == 3 else run.append(*change)
         return run
 
     def seed(self, variant, *changes):
@@ -200,6 +204,11 @@ def set_fields(run, **fields):
 def schemes(shape, update):
     """Changes of system/mpmSchemes."""
     return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
+
+
+def treatment(word):
+    """Changes of system/mpmSchemes: a stressTreatment ("automatic" or "{ ... }"); "plain" is the scheme without."""
+    return () if word == "plain" else (("system/mpmSchemes", f"stressTreatment {word}" + ("" if word.startswith("{") else ";")),)
 
 
 def record(case, what, measured, unit=""):
