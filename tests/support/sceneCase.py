@@ -70,9 +70,16 @@ class Run:
             raise SystemExit(f"{path}: {count} entries {word}, one is needed")
         path.write_text(text)
 
-    def append(self, file, text):
+    def remove(self, file, word):
+        """Takes an entry or dictionary out, if it is there."""
         path = self.folder / file
-        path.write_text(path.read_text() + text + "\n")
+        text = path.read_text()
+        found = re.search(rf"(?m)^[ \t]*{word}\s+[^;{{]*;|^[ \t]*{word}\s*\{{", text)
+        if found:
+            end = found.end()
+            while text[found.start():end].count("{") > text[found.start():end].count("}"):
+                end = text.index("}", end) + 1
+            path.write_text(text[:found.start()] + text[end:])
 
     def edit(self, change, time=-1):
         """Lets change(particles) alter the arrays of a stored state in place (default: the last), before a run."""
@@ -104,6 +111,7 @@ class SceneCase:
 
     def __init__(self, script, text, word, label):
         self.scene = Path(script).resolve().parent
+        self.source = self.scene  # the folder whose dictionaries are copied; a scene may take those of a case
         self.name = self.scene.name
         self.folder = BUILD / "tests" / self.KIND / (self.name + ("-long" if LONG else ""))
         title, rest = " ".join(text.split()).split(f" {word}: ")
@@ -113,13 +121,13 @@ class SceneCase:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def copy(self, variant, *changes):
-        """A fresh copy of the scene; change = (file, word, value), or (file, text): one more line at its end."""
+        """A fresh copy of the scene; change = (file, word, value), or a function of the Run."""
         run = Run(self.folder / variant)
         for part in ("geometry", "constant", "system"):
-            if (self.scene / part).is_dir():
-                shutil.copytree(self.scene / part, run.folder / part)
+            if (self.source / part).is_dir():
+                shutil.copytree(self.source / part, run.folder / part)
         for change in changes:
-            run.set(*change) if len(change) == 3 else run.append(*change)
+            change(run) if callable(change) else run.set(*change)
         return run
 
     def seed(self, variant, *changes):
@@ -207,8 +215,13 @@ def schemes(shape, update):
 
 
 def treatment(word):
-    """Changes of system/mpmSchemes: a stressTreatment ("automatic" or "{ ... }"); "plain" is the scheme without."""
-    return () if word == "plain" else (("system/mpmSchemes", f"stressTreatment {word}" + ("" if word.startswith("{") else ";")),)
+    """A change of system/mpmSchemes: its stressTreatment, "automatic" or "{ ... }"; "plain" is the scheme without."""
+    def change(run):
+        run.remove("system/mpmSchemes", "stressTreatment")
+        if word != "plain":
+            path = run.folder / "system/mpmSchemes"
+            path.write_text(path.read_text() + f"stressTreatment {word}" + ("\n" if word.startswith("{") else ";\n"))
+    return change
 
 
 def record(case, what, measured, unit=""):

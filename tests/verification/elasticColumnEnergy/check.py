@@ -31,7 +31,7 @@ class Column:
         changes = [("geometry/column.geo", "width", f"= {self.width!r}"), ("system/gridDict", "cellSize", repr(self.h)),
                    ("system/controlDict", "deltaT", repr(end / np.ceil(end / limit))),
                    *[("system/controlDict", time, repr(end)) for time in ("endTime", "writeInterval")],
-                   ("system/seedParticlesDict", "soil", f"{{ material {law}; }}"), *treatment(word)]
+                   ("system/seedParticlesDict", "soil", f"{{ material {law}; }}"), treatment(word)]
         if self.free:
             changes += [("constant/boundaryConditions", side, FREE) for side in ("left", "right")]
             changes += [("system/gridDict", "min", "(-1.6 0 0)"), ("system/gridDict", "max", "(5.6 9.6 0)")]
