@@ -240,3 +240,14 @@ def log_number(run, pattern):
     """The number a regular expression's group finds in what the last utility printed; NaN if it is not there."""
     found = re.search(pattern, run.log)
     return float(found.group(1)) if found else math.nan
+
+
+def checkerboard(position, value, spacing):
+    """RMS amplitude of what alternates from one particle to the next: half of each value less the mean of its four
+    neighbours on the lattice of seeding (2D; particles at its edges are left out)."""
+    index = np.floor(position / spacing).astype(int)
+    index -= index.min(axis=0)
+    table = np.full(index.max(axis=0) + 1, np.nan)
+    table[index[:, 0], index[:, 1]] = value
+    mean = (table[:-2, 1:-1] + table[2:, 1:-1] + table[1:-1, :-2] + table[1:-1, 2:]) / 4
+    return math.sqrt(np.nanmean((0.5 * (table[1:-1, 1:-1] - mean)) ** 2))
