@@ -22,7 +22,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from sceneCase import BUILD, LONG, PROJECT, Run, SceneCase, State, log_number, pressure, record, schemes, set_fields
+from sceneCase import (BUILD, LONG, PROJECT, Run, SceneCase, State, checkerboard, log_number, pressure, record, schemes, set_fields,
+                       treatment)
 
 
 class HardCase(SceneCase):
@@ -42,16 +43,3 @@ class HardCase(SceneCase):
             budget = run.series("energyBudget")
             lost = budget["transferLoss"] + budget["wallLoss"]
             self.check(f"energy gained in transfer ({run.folder.name})", -lost.min() / supplied, "<=", most)
-
-
-# What several cases share --------------------------------------------------------------------------------------------
-
-def checkerboard(position, value, spacing):
-    """RMS amplitude of what alternates from one particle to the next: half of each value less the mean of its four
-    neighbours on the lattice of seeding (2D; particles at its edges are left out)."""
-    index = np.floor(position / spacing).astype(int)
-    index -= index.min(axis=0)
-    table = np.full(index.max(axis=0) + 1, np.nan)
-    table[index[:, 0], index[:, 1]] = value
-    mean = (table[:-2, 1:-1] + table[2:, 1:-1] + table[1:-1, :-2] + table[1:-1, 2:]) / 4
-    return math.sqrt(np.nanmean((0.5 * (table[1:-1, 1:-1] - mean)) ** 2))

@@ -70,6 +70,17 @@ class Run:
             raise SystemExit(f"{path}: {count} entries {word}, one is needed")
         path.write_text(text)
 
+    def remove(self, file, word):
+        """Takes an entry or dictionary out, if it is there."""
+        path = self.folder / file
+        text = path.read_text()
+        found = re.search(rf"(?m)^[ \t]*{word}\s+[^;{{]*;|^[ \t]*{word}\s*\{{", text)
+        if found:
+            end = found.end()
+            while text[found.start():end].count("{") > text[found.start():end].count("}"):
+                end = text.index("}", end) + 1
+            path.write_text(text[:found.start()] + text[end:])
+
     def edit(self, change, time=-1):
         """Lets change(particles) alter the arrays of a stored state in place (default: the last), before a run."""
         with h5py.File(self.state(time).path, "r+") as file:
@@ -100,6 +111,7 @@ class SceneCase:
 
     def __init__(self, script, text, word, label):
         self.scene = Path(script).resolve().parent
+        self.source = self.scene  # the folder whose dictionaries are copied; a scene may take those of a case
         self.name = self.scene.name
         self.folder = BUILD / "tests" / self.KIND / (self.name + ("-long" if LONG else ""))
         title, rest = " ".join(text.split()).split(f" {word}: ")
@@ -109,13 +121,13 @@ class SceneCase:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def copy(self, variant, *changes):
-        """A fresh copy of the scene; change = (file, word, value)."""
+        """A fresh copy of the scene; change = (file, word, value), or a function of the Run."""
         run = Run(self.folder / variant)
         for part in ("geometry", "constant", "system"):
-            if (self.scene / part).is_dir():
-                shutil.copytree(self.scene / part, run.folder / part)
+            if (self.source / part).is_dir():
+                shutil.copytree(self.source / part, run.folder / part)
         for change in changes:
-            run.set(*change)
+            change(run) if callable(change) else run.set(*change)
         return run
 
     def seed(self, variant, *changes):
@@ -202,6 +214,16 @@ def schemes(shape, update):
     return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
 
 
+def treatment(word):
+    """A change of system/mpmSchemes: its stressTreatment, "automatic" or "{ ... }"; "plain" is the scheme without."""
+    def change(run):
+        run.remove("system/mpmSchemes", "stressTreatment")
+        if word != "plain":
+            path = run.folder / "system/mpmSchemes"
+            path.write_text(path.read_text() + f"stressTreatment {word}" + ("\n" if word.startswith("{") else ";\n"))
+    return change
+
+
 def record(case, what, measured, unit=""):
     """A number for the table that no criterion bounds."""
     case.checks.append({"what": what, "measured": float(measured), "relation": "recorded", "bound": float(measured),
@@ -218,3 +240,14 @@ def log_number(run, pattern):
     """The number a regular expression's group finds in what the last utility printed; NaN if it is not there."""
     found = re.search(pattern, run.log)
     return float(found.group(1)) if found else math.nan
+
+
+def checkerboard(position, value, spacing):
+    """RMS amplitude of what alternates from one particle to the next: half of each value less the mean of its four
+    neighbours on the lattice of seeding (2D; particles at its edges are left out)."""
+    index = np.floor(position / spacing).astype(int)
+    index -= index.min(axis=0)
+    table = np.full(index.max(axis=0) + 1, np.nan)
+    table[index[:, 0], index[:, 1]] = value
+    mean = (table[:-2, 1:-1] + table[2:, 1:-1] + table[1:-1, :-2] + table[1:-1, 2:]) / 4
+    return math.sqrt(np.nanmean((0.5 * (table[1:-1, 1:-1] - mean)) ** 2))

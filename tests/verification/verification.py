@@ -31,7 +31,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from sceneCase import BUILD, LONG, PROJECT, Run, SceneCase, State, log_number, pressure, record, schemes, set_fields
+from sceneCase import (BUILD, LONG, PROJECT, Run, SceneCase, State, checkerboard, log_number, pressure, record, schemes, set_fields,
+                       treatment)
 
 WRITE = "--write" in sys.argv
 BEGIN, END = "<!-- measured: written by check.py --write -->", "<!-- end of measured -->"
