@@ -81,6 +81,8 @@ void SolverRun::banner() const
     if (const auto periodic = periodicAxes(state_.grid); !periodic.empty())
         line("periodic", "along " + joinWords(periodic, " and "));
     line("method", scene_.shape + ", " + stepping::methodText(s));
+    if (s.treatment.any())
+        line("stresses", treatment::describe(s.treatment));
     if (!overrides_.empty())
         line("overridden", fmt::format("{}, by {}{}", overrides_.describe(), overrides_.reason(),
                                        state_.step > 0 ? ", with which this run began" : ""));
@@ -189,11 +191,29 @@ void SolverRun::summary()
                      l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
     if (scene_.scene.relaxationTime)
         line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
+    if (const auto& treatment = scene_.scene.treatment; treatment.any())
+    {
+        const auto share = [&](double energy) {
+            return fmt::format("{:.3g} {}{}", energy / 1e3, unit,
+                               supplied > 0 ? fmt::format(" ({:.2f} %)", 100 * energy / supplied) : "");
+        };
+        std::string text;
+        const auto add = [&](bool used, const std::string& what, double energy) {
+            if (used)
+                text += (text.empty() ? "" : ", ") + what + " " + share(energy);
+        };
+        add(treatment.relaxation.has_value(), "relaxation took", l.relaxationLoss);
+        add(treatment.averaging && !treatment.averaging->conjugate, "averaging", l.averagingLoss);
+        add(treatment.hasViscosity(), "its viscosity", l.viscosityLoss);
+        add(treatment.tensionGap, "open gaps hold", l.gapWork);
+        line("stresses", text);
+    }
     line("residual",
          fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
                      supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));
     line("apex",
-         fmt::format("{} returns, {:.4g} m^{} of volume dropped", l.apexReturns, l.apexVolume, state_.particles.dim));
+         fmt::format("{} returns, {:.4g} m^{} of volume {}", l.apexReturns, l.apexVolume, state_.particles.dim,
+                    scene_.scene.treatment.tensionGap ? "open" : "dropped"));
     if (runTime_->adjustable() && steps > 0)
         line("time step", fmt::format("{:.4g} to {:.4g} s, mean {:.4g} s; adapting it took {:.2g} % of the run",
                                       smallestStep_, largestStep_, (state_.time - firstTime_) / double(steps),

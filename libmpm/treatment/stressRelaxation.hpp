@@ -16,7 +16,7 @@
 ///     {
 ///         target     filtered;     // smoothed | filtered | leastSquares
 ///         rate       500;          // r at most [1/s]; default 0.6 c_p/h
-///         perStrain  20000;         // [-]; 0: no such bound
+///         perStrain  5000;         // [-]; 0: no such bound
 ///         interval   5;            // n [steps]
 ///     }
 ///
@@ -34,7 +34,7 @@ struct StressRelaxation
 {
     smoothing::StressTarget target = smoothing::StressTarget::filtered;
     std::optional<double> rate; ///< [1/s]; none: 0.6 c_p/h
-    double perStrain = 20000;
+    double perStrain = 5000;
     Index interval = 5;
 };
 

@@ -10,7 +10,7 @@ void CellAverage::build(const state::TileGrid& grid)
     std::size_t cells = 0;
     for (const auto& block : grid.blocks())
         cells = std::max(cells, block.start + std::size_t(block.box.size()));
-    for (auto* column : {&volume_, &content_, &perHat_, &weighted_})
+    for (auto* column : {&volume_, &content_, &weighted_})
         column->assign(cells, 0.0);
     const int count = int(blocks_.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -34,88 +34,81 @@ void CellAverage::build(const state::TileGrid& grid)
     }
 }
 
-void CellAverage::takeMeans()
-{
-#pragma omp parallel for schedule(static)
-    for (Index c = 0; c < Index(content_.size()); ++c)
-    {
-        const auto i = std::size_t(c);
-        content_[i] = volume_[i] > 0 ? content_[i] / volume_[i] : 0;
-    }
-}
-
-void CellAverage::weighHats()
-{
-    addHats(volume_, perHat_);
-    for (std::size_t i = 0; i < perHat_.size(); ++i)
-        perHat_[i] = volume_[i] > 0 ? 1 / perHat_[i] : 0;
-}
-
-void CellAverage::average(int hats)
-{
-    takeMeans();
-    if (hats > 0)
-        weighHats();
-    for (int r = 0; r < hats; ++r)
-    {
-        for (std::size_t i = 0; i < content_.size(); ++i)
-            weighted_[i] = volume_[i] * content_[i];
-        addHats(weighted_, content_);
-        for (std::size_t i = 0; i < content_.size(); ++i)
-            content_[i] *= perHat_[i];
-    }
-}
-
-void CellAverage::averageAdjoint(int hats)
-{
-    takeMeans();
-    if (hats > 0)
-        weighHats();
-    for (int r = 0; r < hats; ++r)
-    {
-        for (std::size_t i = 0; i < content_.size(); ++i)
-            weighted_[i] = volume_[i] * content_[i] * perHat_[i];
-        addHats(weighted_, content_);
-    }
-}
-
-/// The hats are products over axes: (1 2 1) along x, then y, then z.
-void CellAverage::addHats(const std::vector<double>& in, std::vector<double>& out) const
+template <class Work>
+void CellAverage::forEachBlock(Work&& work)
 {
     const int count = int(blocks_.size());
 #pragma omp parallel
     {
-        std::vector<double> cells, sums;
+        std::vector<double> values;
 #pragma omp for schedule(dynamic, 4)
         for (int b = 0; b < count; ++b)
+            work(blocks_[std::size_t(b)], values);
+    }
+}
+
+void CellAverage::gather(const Block& block, const std::vector<double>& from, std::vector<double>& cells) const
+{
+    cells.resize(block.around.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        cells[i] = block.around[i] >= 0 ? from[std::size_t(block.around[i])] : 0;
+}
+
+/// Along one axis after the other, in place.
+void CellAverage::addPairs(std::vector<double>& values, std::array<std::size_t, 3> n) const
+{
+    std::size_t stride = 1;
+    for (int a = 0; a < dim_; ++a)
+    {
+        const auto axis = std::size_t(a);
+        const std::size_t outer = values.size() / (stride * n[axis]);
+        for (std::size_t o = 0; o < outer; ++o)
         {
-            const Block& block = blocks_[std::size_t(b)];
-            cells.resize(block.around.size());
-            for (std::size_t i = 0; i < cells.size(); ++i)
-                cells[i] = block.around[i] >= 0 ? in[std::size_t(block.around[i])] : 0;
-            const auto& n = block.box.n;
-            std::size_t nx = std::size_t(n[0]), rows = cells.size() / (nx + 2);
-            sums.resize(rows * nx);
-            for (std::size_t r = 0; r < rows; ++r)
-            {
-                const double* row = cells.data() + r * (nx + 2);
-                for (std::size_t i = 0; i < nx; ++i)
-                    sums[r * nx + i] = row[i] + 2 * row[i + 1] + row[i + 2];
-            }
-            const std::size_t ny = std::size_t(n[1]), layers = rows / (ny + 2);
-            cells.resize(layers * ny * nx);
-            for (std::size_t k = 0; k < layers; ++k)
-                for (std::size_t j = 0; j < ny; ++j)
-                    for (std::size_t i = 0; i < nx; ++i)
-                    {
-                        const double* at = sums.data() + (k * (ny + 2) + j) * nx + i;
-                        cells[(k * ny + j) * nx + i] = at[0] + 2 * at[nx] + at[2 * nx];
-                    }
-            double* to = out.data() + block.start;
-            const std::size_t layer = ny * nx;
-            for (std::size_t c = 0; c < std::size_t(n[2]) * layer; ++c)
-                to[c] = dim_ == 3 ? cells[c] + 2 * cells[c + layer] + cells[c + 2 * layer] : cells[c];
+            const double* in = values.data() + o * stride * n[axis];
+            double* out = values.data() + o * stride * (n[axis] - 1);
+            for (std::size_t i = 0; i < stride * (n[axis] - 1); ++i)
+                out[i] = in[i] + in[i + stride];
         }
+        values.resize(outer * stride * (n[axis] - 1));
+        stride *= n[axis] - 1;
+    }
+}
+
+void CellAverage::average(int hats)
+{
+    for (std::size_t i = 0; i < content_.size(); ++i)
+        content_[i] = volume_[i] > 0 ? content_[i] / volume_[i] : 0;
+    if (hats == 0)
+        return;
+    const auto sides = [&](const Block& block, std::size_t more) {
+        std::array<std::size_t, 3> n{1, 1, 1};
+        for (std::size_t a = 0; a < std::size_t(dim_); ++a)
+            n[a] = std::size_t(block.box.n[a]) + more;
+        return n;
+    };
+    forEachBlock([&](Block& block, std::vector<double>& values) {
+        gather(block, volume_, values);
+        addPairs(values, sides(block, 2));
+        block.perNode.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            block.perNode[i] = values[i] > 0 ? 1 / values[i] : 0;
+    });
+    const double share = dim_ == 2 ? 0.25 : 0.125;
+    for (int r = 0; r < hats; ++r)
+    {
+        for (std::size_t i = 0; i < content_.size(); ++i)
+            weighted_[i] = volume_[i] * content_[i];
+        forEachBlock([&](Block& block, std::vector<double>& values) {
+            gather(block, weighted_, values);
+            addPairs(values, sides(block, 2));
+            for (std::size_t i = 0; i < values.size(); ++i)
+                values[i] *= block.perNode[i];
+            addPairs(values, sides(block, 1));
+            double* to = content_.data() + block.start;
+            const double* volume = volume_.data() + block.start;
+            for (std::size_t i = 0; i < values.size(); ++i)
+                to[i] = volume[i] > 0 ? share * values[i] : 0;
+        });
     }
 }
 } // namespace mpm::treatment

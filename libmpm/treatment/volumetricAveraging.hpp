@@ -5,21 +5,25 @@
 /// of either sign from particle to particle). F follows the same gradient.
 ///
 ///     A = C                       cell: theta_c = sum V_p q_p / sum V_p over the cell, back to its particles
-///     A = C^T H^n C               patch: the means of cells are averaged n times more over the 3^d cells around,
-///                                 (H q)_c = sum w_cd V_d q_d / sum w_cd V_d, w = prod over axes (2 - |c - d|)
-/// Hat weights have a spectrum without negative values; a plain box of 3^d cells is unstable.
+///     A = C^T H^n C               patch: the means of cells are averaged n times more, through the nodes they share:
+///                                 q_n = sum V_c q_c / sum V_c over the cells at a node, (H q)_c = 2^-d sum q_n over
+///                                 the nodes of a cell. Inside that is a hat over 3^d cells, prod over axes (1 2 1)/4
+/// With weights V, A is self-adjoint, 0 <= A <= I, also where the material ends: constants and sum V q are kept. (Hats
+/// normalised cell by cell are not self-adjoint at surfaces, where an elastic block then flutters; a box of 3^d cells has
+/// negative eigenvalues.)
 ///
 /// of total: q = tr D. of elastic: q = tr D - tr D^p with the plastic part of the last step, which stays where it was
 /// made: only what makes pressure is averaged. A flow rule that dilates (psi > 0) makes volume in a shear band; spread
 /// over neighbours, the band would be held shut by a pressure that pushes ever harder (energy from nowhere). So a law
 /// that dilates needs `of elastic` or `conjugate yes`.
 ///
-/// conjugate no: forces keep the particles' stress. Pressures p = K A theta are smooth then, and A is symmetric, so the
-/// stiffness B^T V K A B is that of an elastic body whose energy is 1/2 theta : K A : theta; what plastic flow makes of
-/// the difference between sigma : D and sigma : D_averaged is booked as averagingLoss.
-/// conjugate yes: forces take sigma + (A* s - s) I, s the mean of the d normal stresses, A* the adjoint of A with weights
-/// V: they do exactly the work the strains say, averagingLoss is 0. The price is noise: stresses that equilibrium asks of
-/// A* s need not be smooth.
+/// conjugate no: forces keep the particles' stress. Pressures p = K A theta are smooth then, and A is self-adjoint, so the
+/// stiffness B^T V K A B is that of an elastic body whose energy is 1/2 theta : K A : theta. What plastic flow, and cells
+/// that particles change, make of the difference between sigma : D and sigma : D_averaged is booked as averagingLoss.
+/// Pressures made with the cells of long ago are no longer in the range of A: without a stressRelaxation, which brings them
+/// back, energy can grow over thousands of steps.
+/// conjugate yes: forces take sigma + (A s - s) I, s the mean of the d normal stresses: they do exactly the work the
+/// strains say, averagingLoss is 0. The price is noise: stresses that equilibrium asks of A s need not be smooth.
 ///
 /// viscosity: volume change that the average leaves out has no stiffness; it would linger in the velocities and feed the
 /// noise of stresses. A pressure -eta (tr D - theta) in the forces, eta = viscosity rho h c_p, takes that motion away and
@@ -84,25 +88,23 @@ class CellAverage
 
     /// content <- H^n of the cells' means; 0 where there is nothing.
     void average(int hats);
-    /// content <- (H*)^n of the cells' means: sum V_c a_c (H b)_c = sum V_c (H* a)_c b_c.
-    void averageAdjoint(int hats);
 
   private:
-    void takeMeans();
-    void weighHats();
-    /// out_c = sum_d w_cd in_d over the 3^d cells around c.
-    void addHats(const std::vector<double>& in, std::vector<double>& out) const;
-
     struct Block
     {
         state::NodeBox box;
         std::size_t start = 0;
         std::vector<std::int32_t> around; ///< places of the cells of the box and one cell around it, -1: none
+        std::vector<double> perNode;      ///< 1/sum V_c of its (n + 1)^d nodes, 0 where there is nothing
     };
+    template <class Work>
+    void forEachBlock(Work&& work);
+    /// Sums over the 2^d values around each corner between them: n + 1 values an axis become n.
+    void addPairs(std::vector<double>& values, std::array<std::size_t, 3> n) const;
+    void gather(const Block& block, const std::vector<double>& from, std::vector<double>& cells) const;
+
     int dim_ = 2;
     std::vector<Block> blocks_;
-    std::vector<double> volume_, content_;
-    std::vector<double> perHat_; ///< 1/sum w_cd V_d, 0 where there is nothing
-    std::vector<double> weighted_;
+    std::vector<double> volume_, content_, weighted_;
 };
 } // namespace mpm::treatment
