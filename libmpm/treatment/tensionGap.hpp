@@ -36,7 +36,7 @@ double meanStress(const constitutive::Chunk<dim>& chunk, int l)
 
 /// Before the law: the strain it sees includes the gap. anyOpen: is there one in the chunk?
 template <int dim>
-void openGap(constitutive::Chunk<dim>& chunk, OpenGap& open, bool anyOpen)
+void openGap(constitutive::Chunk<dim>& chunk, OpenGap& open, bool anyOpen = true)
 {
     for (int l = 0; l < lanes; ++l)
     {
