@@ -52,6 +52,19 @@ def measured(*rows):
     return lambda case: errorTable.write(case, rows)
 
 
+def treated(words, change=None):
+    """More words for mpmSchemes."""
+    return both(append(SCHEMES, words + "\n"), *([change] if change else []))
+
+
+def remedy(words):
+    return treated(f"stressTreatment {{ {words} }}")
+
+
+dilating = edit(MATERIAL, "dilationAngle   0;", "dilationAngle   5;")
+elastic = both(law("neoHookean", ""), state(lambda file: file["particles/stress"].write_direct(np.zeros((1800, 4)))))
+
+
 GROUPS = [
     ("Options", [
         Entry("an option that does not exist", "mpmSolve -fast"),
@@ -230,6 +243,25 @@ GROUPS = [
         solve("a constant that is a variable", write(FORCE, 'value ("t" 0); constants { t 1; }\n')),
         solve("a constant of a later one", write(FORCE, 'value ("A" 0); constants { A "2*B"; B 1; }\n')),
         solve("a field that does not exist", append(CONTROL, "fields (referencePositon);\n")),
+        solve("a treatment that does not exist", treated("stressTreatment automatc;")),
+        solve("a remedy that does not exist", treated("stressTreatment { volumeAveraging { region cell; } }")),
+        solve("a region that does not exist", remedy("volumetricAveraging { region cells; }")),
+        solve("repeats of an average over cells", remedy("volumetricAveraging { region cell; repeats 2; }")),
+        solve("hats that are none", remedy("volumetricAveraging { repeats 0; }")),
+        solve("a viscosity that outruns the step", remedy("volumetricAveraging { viscosity 2; }")),
+        solve("an average of no such part", remedy("volumetricAveraging { of plastic; }")),
+        solve("a target that does not exist", remedy("stressRelaxation { target filterd; }")),
+        solve("a rate that takes nothing", remedy("stressRelaxation { rate 0; }")),
+        solve("a bound below zero", remedy("stressRelaxation { perStrain -1; }")),
+        solve("no steps between relaxations", remedy("stressRelaxation { interval 0; }")),
+        solve("a gap that is neither", remedy("tensionGap open;")),
+        solve("a treatment within a Runge-Kutta step", treated("stressTreatment automatic; timeIntegration RK4;",
+                                                              edit(SCHEMES, "picRate         2;", "picRate 0;"))),
+        solve("a share of the filter with FLIP", treated("filterRate 5;")),
+        solve("filters at intervals without a rate",
+              treated("order 2; filterInterval 10;",
+                      both(edit(SCHEMES, "transfer        FLIP;", "transfer XPIC;"),
+                           edit(SCHEMES, "picRate         2; ", "//")))),
         solve("a time step beyond the stability limit", edit(CONTROL, "1e-3;", "4e-3;")),
         solve("stress last at this time step", edit(SCHEMES, "MUSL;           //", "USL;           //")),
         solve("a time step of zero", edit(CONTROL, "1e-3;", "0;")),
@@ -313,6 +345,12 @@ GROUPS = [
                                       edit(GRID, "(16 12 0)", "(16 12 4)"))),
         solve("a material the state is made of and nobody describes", edit(MATERIAL, "\nsoil\n", "\nclay\n")),
         solve("a law that follows the deformation, and stress without one", law("neoHookean", "")),
+        solve("the whole volume change averaged where soil dilates",
+              both(remedy("volumetricAveraging { of total; }"), dilating)),
+        solve("averages of the elastic part with conjugate forces",
+              remedy("volumetricAveraging { of elastic; conjugate yes; }")),
+        solve("a tension gap where no volume is dropped", both(remedy("tensionGap yes;"), dilating)),
+        solve("a stress to relax that follows the deformation", both(remedy("stressRelaxation { }"), elastic)),
         solve("a place at the start that is not known any more", both(write(FORCE, 'value (0 "X*t");\n'),
                                                                      attribute("step", 5))),
         solve("a grid the particles have left", edit(GRID, "(-12 0 0)", "(2.4 0 0)")),

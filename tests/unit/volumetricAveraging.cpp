@@ -15,16 +15,21 @@ struct Kind
     int repeats;
     AveragedPart of;
     bool conjugate;
+    double viscosity = 0;
 };
 const std::vector<Kind> kinds = {{AveragingRegion::cell, 1, AveragedPart::total, false},
                                  {AveragingRegion::cell, 1, AveragedPart::total, true},
                                  {AveragingRegion::patch, 2, AveragedPart::total, false},
                                  {AveragingRegion::patch, 4, AveragedPart::total, true},
-                                 {AveragingRegion::patch, 3, AveragedPart::elastic, false}};
+                                 {AveragingRegion::patch, 3, AveragedPart::elastic, false},
+                                 {AveragingRegion::cell, 1, AveragedPart::total, true, 0.1},
+                                 {AveragingRegion::patch, 1, AveragedPart::total, false, 0.3}};
 
 StressTreatment treatmentOf(const Kind& k)
 {
-    return averaged(k.region, k.repeats, k.of, k.conjugate);
+    auto t = averaged(k.region, k.repeats, k.of, k.conjugate);
+    t.averaging->viscosity = k.viscosity;
+    return t;
 }
 
 /// Random motion of a free block with gravity; the state after some swings of its smallest waves.
@@ -52,6 +57,9 @@ TEST_CASE("the budget closes to round-off and momentum is kept, of every average
                     for (int a = 0; a < 2; ++a)
                         CHECK(std::abs(t.momentum[a] - s.ledger.initialMomentum[a] - s.ledger.gravityImpulse[a]) <
                               1e-12 * t.mass);
+                    CHECK((s.ledger.viscosityLoss != 0) == (kind.viscosity > 0));
+                    if (kind.viscosity > 0) // motion no average sees dies out
+                        CHECK(s.ledger.viscosityLoss > 1e-3 * t.mass);
                     if (kind.conjugate)
                         CHECK(s.ledger.averagingLoss == 0);
                     else // a body whose strains differ from those its forces work on exchanges that work
