@@ -51,10 +51,9 @@ def must(case, *command, log=None):
 
 
 def complaint(case, log="mpmSolve"):
-    """Why a run ended, from its log: the message behind 'error:'."""
-    lines = (case / f"log.{log}").read_text().strip().splitlines() or ["no message"]
-    line = next((line for line in lines if line.startswith("-->")), lines[-1])
-    return line.split("error: ")[-1].strip()
+    """Why a run ended, from its log: the message behind 'error:', with files as seen from the case."""
+    lines = (case / f"log.{log}").read_text().replace(f"{case}/", "").strip().splitlines() or ["no message"]
+    return next((line.split(" error: ")[-1] for line in lines if line.startswith("-->") and " error: " in line), lines[-1]).strip()
 
 
 def table(path):

@@ -82,14 +82,13 @@ def trade_off(repeat):
 
 
 def with_losses(rows):
-    """Energy lost, of the energy released: to remedies, and to transfers beyond what the plain scheme loses to them."""
+    """The energy a remedy takes and the largest noise, of rows that came to their end."""
     found = {row["row"]: row for row in rows}
     for row, described in zip(rows, ROWS):
         base = found[described.baseline]
-        if row["outcome"] == "end" and base["outcome"] == "end":
-            row["energyLoss"] = row["remedyLoss"] + max(0.0, row["transferLoss"] - base["transferLoss"])
-    for row in rows:
         if row["outcome"] == "end":
+            filtered = max(0.0, row["transferLoss"] - base["transferLoss"]) if described.filters else 0.0
+            row["energyLoss"] = row["remedyLoss"] + filtered
             row["noise"] = max(row[f"noise{time:g}"] for time in TIMES)
     return rows
 
