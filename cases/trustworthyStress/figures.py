@@ -78,7 +78,8 @@ def figure1(runs):
             domains = stress_panel(axes, shot, outline)
             axes.set(xlim=(2 - end, 2 + end), ylim=(-0.1, 8.4))
             axes.set_xticks([] if name == "plain" else np.arange(-6, 11, 4) if end > 6 else [0, 4])
-            axes.text(2, 8.3, f"N = {runs[name][f'noise{time:g}']:.2g}", ha="center", va="top", fontsize=12,
+            noise = runs[name][f"noise{time:g}"]
+            axes.text(2, 8.3, f"N = {noise:.1f}" if noise >= 1 else f"N = {noise:.2g}", ha="center", va="top", fontsize=12,
                       color=RED if name == "plain" else BLUE)
             axes.set(title=f"t = {time:g} s") if name == "plain" else axes.set_xlabel("x [m]")
         row[0].set_ylabel(title, fontsize=12, fontweight="bold")
@@ -201,7 +202,7 @@ def trade_off(_):
 
     settings = [row for row in rows if row["group"] in ("automatic", "combination")]
     near = points_of(settings)
-    inset = axes.inset_axes((0.29, 0.08, 0.40, 0.42))
+    inset = axes.inset_axes((0.28, 0.15, 0.38, 0.38))
     scatter(inset, settings)
     low, high = near.min(axis=0), near.max(axis=0)
     margin = 0.28 * (high - low)
