@@ -184,35 +184,46 @@ def scatter(axes, rows):
     return shown
 
 
-def trade_off(_):
-    rows = trade_off_rows()
-    figure, axes = plt.subplots(figsize=(11, 6.6), layout="constrained")
+def all_remedies(axes, rows):
     axes.set(xscale="log", yscale="log", xlim=(0.02, 9), ylim=(0.006, 40))
     axes.fill([0.001, 0.03, 0.03, 0.001], [1e-9, 1e-9, 0.5, 0.5], color="#009E73", alpha=0.15)
-    axes.text(0.0205, 0.0068, "goal", color="#007755", fontsize=11)
-    shown = scatter(axes, rows)
-    axes.set_xlabel("noise of particle stresses N, the largest at 0.5, 1, 1.5 and 2.5 s")
+    axes.text(0.0207, 0.0068, "goal", color="#007755", fontsize=11)
+    scatter(axes, rows)
+    axes.set_xlabel("noise N of particle stresses, the largest at 0.5, 1, 1.5, 2.5 s")
     axes.set_ylabel("energy the remedy takes [% of what gravity releases]")
     ticks = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30]
     axes.set_yticks(ticks, ["0", *(f"{tick:g}" for tick in ticks[1:])])
     axes.set_xticks([0.03, 0.1, 0.3, 1, 3], ["0.03", "0.1", "0.3", "1", "3"])
-    axes.grid(True, which="major", color="#e5e5e5", zorder=0)
-    axes.legend(frameon=False, loc="upper left")
-    figure.colorbar(shown, ax=axes, extend="both", pad=0.01, shrink=0.8).set_label("time a step takes beyond the plain scheme's [%]")
+    axes.minorticks_off()
+    axes.grid(True, color="#e5e5e5", zorder=0)
+    axes.legend(loc=(0.1, 0.1), edgecolor="white")
 
+
+def settings_of_automatic(axes, rows):
+    points = points_of(rows)
+    shown = scatter(axes, rows)
+    low, high = np.minimum(points.min(axis=0), (0.029, 0.49)), points.max(axis=0)
+    margin = 0.18 * (high - low)
+    axes.set(xlim=(low[0] - margin[0], high[0] + margin[0]), ylim=(low[1] - margin[1], high[1] + margin[1]))
+    axes.fill([0, 0.03, 0.03, 0], [0, 0, 0.5, 0.5], color="#009E73", alpha=0.15)
+    axes.set_xlabel("N")
+    axes.set_title("the settings of automatic, nearer", fontsize=11)
+    return shown
+
+
+def trade_off(_):
+    rows = trade_off_rows()
     settings = [row for row in rows if row["group"] in ("automatic", "combination")]
-    near = points_of(settings)
-    inset = axes.inset_axes((0.28, 0.15, 0.38, 0.38))
-    scatter(inset, settings)
-    low, high = near.min(axis=0), near.max(axis=0)
-    margin = 0.28 * (high - low)
-    inset.set(xlim=(low[0] - margin[0], high[0] + margin[0]), ylim=(low[1] - margin[1], high[1] + margin[1]))
-    inset.tick_params(labelsize=8)
-    inset.spines[:].set_visible(True)
-    axes.indicate_inset_zoom(inset, edgecolor=GREY)
-    place_labels(inset, near, [row["label"] for row in settings])
     others = [row for row in rows if row not in settings]
-    place_labels(axes, points_of(others), [row["label"] for row in others])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 6), layout="constrained", gridspec_kw={"width_ratios": [1.45, 1]})
+    all_remedies(left, rows)
+    shown = settings_of_automatic(right, settings)
+    bar = figure.colorbar(shown, ax=right, extend="both", pad=0.02, shrink=0.9)
+    bar.set_label("time a step takes beyond the plain scheme's [%]")
+    near = points_of(settings)
+    left.annotate("automatic, W", near[0], xytext=(0, 16), textcoords="offset points", ha="center", fontsize=8.5)
+    place_labels(left, points_of(others), [row["label"] for row in others])
+    place_labels(right, near, [row["label"] for row in settings])
     save(figure, "tradeOff.png")
 
 
