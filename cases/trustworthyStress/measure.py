@@ -78,13 +78,15 @@ class Smoothing:
     def __init__(self, path):
         with h5py.File(path) as file:
             particles = file["particles"]
-            self.stress, self.mass = particles["stress"][:], particles["mass"][:]
+            self.stress, self.mass, volume = (particles[name][:] for name in ("stress", "mass", "volume"))
             position, length = particles["position"][:], particles["length0"][:]
             self.h, origin = read_grid(path.parent.parent)
         axes = [self.weights_along((position[:, k] - origin[k]) / self.h, length[:, k] / self.h) for k in range(2)]
         width = axes[0][0].max() + 3
         self.nodes = np.stack([axes[0][0] + i + width * (axes[1][0] + j) for j in range(3) for i in range(3)])
         self.weights = np.stack([axes[0][1][i] * axes[1][1][j] for j in range(3) for i in range(3)])
+        full = np.bincount(self.nodes.ravel(), (self.weights * volume).ravel()) > 0.95 * self.h**2
+        self.inside = (self.weights * full[self.nodes]).sum(axis=0) > 0.99     # all nodes of a particle lie in soil
 
     @staticmethod
     def weights_along(x, length):
@@ -114,15 +116,17 @@ def rms(x):
     return float(np.sqrt(np.mean(x * x)))
 
 
-def operator_floor(path):
-    """What N would be if nothing but the filtered field T sigma, T = 2 S - S S, were left: that Eq. 11-12 bend it.
+def parts_of_noise(path):
+    """N of sigma_yy, its floor, and N of the particles inside.
 
-    N itself by the same sums comes with it, to be compared with that of stressQuality."""
+    The floor is what N would be if nothing but the filtered field T sigma, T = 2 S - S S, were left: what Eq. 11-12 bend.
+    Inside: all nodes of the particle lie in soil, so that faces, the base and layers of one cell are left out."""
     smooth = Smoothing(path)
     raw = smooth.stress[:, 1]
     once = smooth(raw)
     filtered = 2 * once - smooth(once)
-    return rms(filtered - smooth(filtered)) / rms(once), rms(raw - once) / rms(once)
+    size, inside = rms(once), smooth.inside
+    return rms(raw - once) / size, rms(filtered - smooth(filtered)) / size, rms((raw - once)[inside]) / rms(once[inside])
 
 
 def folder_of(case, time):
@@ -132,14 +136,17 @@ def folder_of(case, time):
 def quality(case, references):
     """Rows of stressQuality at the figure's times; with RMS errors against each of `references` (names beside ours)."""
     must(case, "smoothStress")
+    smoothed = table(case / "postProcessing/smoothStress.csv")
     rows = {}
     for name in references or (None,):
         must(case, "stressQuality", *(("-against", str(HERE / name)) if name else ()), log=f"stressQuality.{name or 'alone'}")
         for row in table(case / "postProcessing/stressQuality.csv"):
             kept = rows.setdefault(row["time"], row)
             if name:
-                kept["error " + name] = row["errorAgainstRaw"]
-    return [nearest(list(rows.values()), time) for time in TIMES]
+                kept |= {"error " + name: row["errorAgainstRaw"], "smoothed " + name: row["errorAgainstSmoothed"],
+                         "size " + name: row["errorAgainstRaw"] / row["relativeErrorAgainstRaw"]}
+    found = [nearest(list(rows.values()), time) for time in TIMES]
+    return [row | {"correlationSmoothed": nearest(smoothed, row["time"])["correlationSmoothed"]} for row in found]
 
 
 def measure(case, references=()):
@@ -147,15 +154,17 @@ def measure(case, references=()):
     rows, history = quality(case, references), table(case / "postProcessing/history.csv")
     out = {}
     for time, row in zip(TIMES, rows):
-        floor, again = operator_floor(folder_of(case, time) / "state.h5")
+        again, floor, inside = parts_of_noise(folder_of(case, time) / "state.h5")
         if abs(again - row["noiseYY"]) > 1e-3 * row["noiseYY"] + 1e-6:
             raise SystemExit(f"{case}: N at {time} s is {again} here and {row['noiseYY']} by stressQuality")
-        out |= {f"noise{time:g}": row["noiseYY"], f"floor{time:g}": floor}
-        out |= {f"{name}Error{time:g}": row[f"error {name}"] for name in references}
+        out |= {f"noise{time:g}": row["noiseYY"], f"floor{time:g}": floor, f"inside{time:g}": inside}
+        for name in references:
+            out |= {f"{name}Error{time:g}": row[f"error {name}"], f"{name}ErrorSmoothed{time:g}": row[f"smoothed {name}"],
+                    f"{name}Stress{time:g}": row[f"size {name}"]}
     end, peak = rows[-1], max(history, key=lambda row: row["kineticEnergy"])
     last = nearest(history, TIMES[-1])
-    out |= {"correlation": end["overburdenCorrelation"], "volumeError": end["volumeError"],
-            "remedyLoss": end["remedyEnergyLoss"], "transferLoss": end["transferLoss"]}
+    out |= {"correlation": end["overburdenCorrelation"], "correlationSmoothed": end["correlationSmoothed"],
+            "volumeError": end["volumeError"], "remedyLoss": end["remedyEnergyLoss"], "transferLoss": end["transferLoss"]}
     out |= {word: end[word] for word in ("relaxationLoss", "averagingLoss", "gapWork")}
     out |= {"toe": last["minX"], "crest": last["maxY"], "kineticPeak": peak["kineticEnergy"], "kineticPeakTime": peak["time"],
             "kineticAtEnd": history[-1]["kineticEnergy"] / peak["kineticEnergy"], "endTime": history[-1]["time"],
