@@ -149,6 +149,12 @@ def quality(case, references):
     return [row | {"correlationSmoothed": nearest(smoothed, row["time"])["correlationSmoothed"]} for row in found]
 
 
+def viscosity_loss(path):
+    """[J] of the ledger: what the viscosity of volumetricAveraging took."""
+    with h5py.File(path) as file:
+        return float(file["ledger"].attrs.get("viscosityLoss", 0.0))
+
+
 def measure(case, references=()):
     """All numbers of one run, by the columns of tradeOff.csv."""
     rows, history = quality(case, references), table(case / "postProcessing/history.csv")
@@ -164,8 +170,10 @@ def measure(case, references=()):
     end, peak = rows[-1], max(history, key=lambda row: row["kineticEnergy"])
     last = nearest(history, TIMES[-1])
     out |= {"correlation": end["overburdenCorrelation"], "correlationSmoothed": end["correlationSmoothed"],
-            "volumeError": end["volumeError"], "remedyLoss": end["remedyEnergyLoss"], "transferLoss": end["transferLoss"]}
+            "volumeError": end["volumeError"], "transferLoss": end["transferLoss"]}
     out |= {word: end[word] for word in ("relaxationLoss", "averagingLoss", "gapWork")}
+    viscous = end.get("viscosityLoss", viscosity_loss(folder_of(case, TIMES[-1]) / "state.h5") / end["releasedEnergy"])
+    out |= {"viscosityLoss": viscous, "remedyLoss": end["remedyEnergyLoss"] + (0 if "viscosityLoss" in end else abs(viscous))}
     out |= {"toe": last["minX"], "crest": last["maxY"], "kineticPeak": peak["kineticEnergy"], "kineticPeakTime": peak["time"],
             "kineticAtEnd": history[-1]["kineticEnergy"] / peak["kineticEnergy"], "endTime": history[-1]["time"],
             "particles": last["particles"]}

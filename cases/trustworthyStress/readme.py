@@ -137,8 +137,12 @@ def answer(runs, rows):
     lines = [
         ("noise N of particle stresses at 0.5 / 1 / 1.5 / 2.5 s", at_times(plain, "noise", 3), at_times(cured, "noise")),
         ("the same of particles inside (all nodes in soil)", at_times(plain, "inside", 3), at_times(cured, "inside")),
-        ("raw vertical stress off that of a run with half the cells [kPa], RMS", 
+        ("raw vertical stress off that of plain with half the cells [kPa], RMS",
          *(at_times(run, "plainFineError", 2, 1e-3) for run in (plain, cured))),
+        ("the same of the smoothed stress", *(at_times(run, "plainFineErrorSmoothed", 2, 1e-3) for run in (plain, cured))),
+        ("raw vertical stress off that of automatic with half the cells [kPa]",
+         *(at_times(run, "curedFineError", 2, 1e-3) for run in (plain, cured))),
+        ("the same of the smoothed stress", *(at_times(run, "curedFineErrorSmoothed", 2, 1e-3) for run in (plain, cured))),
         ("correlation of raw vertical stress with the weight above, 2.5 s",
          *(f"{run['correlation']:.3f}" for run in (plain, cured))),
         ("the same of the smoothed stress", *(f"{run['correlationSmoothed']:.3f}" for run in (plain, cured))),

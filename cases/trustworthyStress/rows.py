@@ -9,9 +9,10 @@ SCHEMES, GRID, SEED, CONTROL, SOIL = ("system/mpmSchemes", "system/gridDict", "s
                                       "system/controlDict", "constant/materialProperties")
 
 
-def averaging(region="patch", repeats=4, of="total", conjugate="no"):
+def averaging(region="patch", repeats=4, of="total", conjugate="no", viscosity=0):
     extent = f"region patch; repeats {repeats};" if region == "patch" else "region cell;"
-    return f"volumetricAveraging {{ {extent} of {of}; conjugate {conjugate}; }}"
+    viscous = f" viscosity {viscosity};" if viscosity else ""
+    return f"volumetricAveraging {{ {extent} of {of}; conjugate {conjugate};{viscous} }}"
 
 
 def relaxation(target="filtered", interval=5, **more):
@@ -57,9 +58,9 @@ COARSE = {GRID: {"cellSize": "0.4"}, SEED: {"particlesPerCell": "3"}}
 DILATANT = {SOIL: {"dilationAngle": "10"}}
 
 
-def variant(repeats=4, interval=5):
+def variant(repeats=4, interval=5, viscosity=0):
     """What `automatic` picks for this soil, with other numbers."""
-    return treatment(averaging(repeats=repeats), relaxation(interval=interval), GAP)
+    return treatment(averaging(repeats=repeats, viscosity=viscosity), relaxation(interval=interval), GAP)
 
 
 ROWS = [
@@ -83,6 +84,8 @@ ROWS = [
     Row("interval10", "every 10 steps", "automatic", variant(interval=10)),
     Row("repeats2", "patch x 2", "automatic", variant(repeats=2)),
     Row("repeats6", "patch x 6", "automatic", variant(repeats=6)),
+    Row("viscosity05", "viscosity 0.05", "automatic", variant(viscosity=0.05)),
+    Row("viscosity2", "viscosity 0.2", "automatic", variant(viscosity=0.2)),
     Row("automaticPic3", "automatic, PIC 3 1/s", "automatic", merged(AUTOMATIC, LONGER, {SCHEMES: {"picRate": "3"}})),
     Row("plainWhole", "plain, no splitting", "scene", merged(PLAIN, WHOLE), "plainWhole"),
     Row("automaticWhole", "automatic, no splitting", "scene", merged(AUTOMATIC, WHOLE), "plainWhole"),
