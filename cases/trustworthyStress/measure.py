@@ -116,17 +116,12 @@ def rms(x):
     return float(np.sqrt(np.mean(x * x)))
 
 
-def parts_of_noise(path):
-    """N of sigma_yy, its floor, and N of the particles inside.
-
-    The floor is what N would be if nothing but the filtered field T sigma, T = 2 S - S S, were left: what Eq. 11-12 bend.
-    Inside: all nodes of the particle lie in soil, so that faces, the base and layers of one cell are left out."""
+def noise_inside(path):
+    """N of sigma_yy, and N of the particles inside: faces, the base and layers of one cell are left out."""
     smooth = Smoothing(path)
     raw = smooth.stress[:, 1]
     once = smooth(raw)
-    filtered = 2 * once - smooth(once)
-    size, inside = rms(once), smooth.inside
-    return rms(raw - once) / size, rms(filtered - smooth(filtered)) / size, rms((raw - once)[inside]) / rms(once[inside])
+    return rms(raw - once) / rms(once), rms((raw - once)[smooth.inside]) / rms(once[smooth.inside])
 
 
 def folder_of(case, time):
@@ -160,10 +155,10 @@ def measure(case, references=()):
     rows, history = quality(case, references), table(case / "postProcessing/history.csv")
     out = {}
     for time, row in zip(TIMES, rows):
-        again, floor, inside = parts_of_noise(folder_of(case, time) / "state.h5")
+        again, inside = noise_inside(folder_of(case, time) / "state.h5")
         if abs(again - row["noiseYY"]) > 1e-3 * row["noiseYY"] + 1e-6:
             raise SystemExit(f"{case}: N at {time} s is {again} here and {row['noiseYY']} by stressQuality")
-        out |= {f"noise{time:g}": row["noiseYY"], f"floor{time:g}": floor, f"inside{time:g}": inside}
+        out |= {f"noise{time:g}": row["noiseYY"], f"floor{time:g}": row["noiseFloorOfField"], f"inside{time:g}": inside}
         for name in references:
             out |= {f"{name}Error{time:g}": row[f"error {name}"], f"{name}ErrorSmoothed{time:g}": row[f"smoothed {name}"],
                     f"{name}Stress{time:g}": row[f"size {name}"]}

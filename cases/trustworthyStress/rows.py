@@ -58,9 +58,12 @@ COARSE = {GRID: {"cellSize": "0.4"}, SEED: {"particlesPerCell": "3"}}
 DILATANT = {SOIL: {"dilationAngle": "10"}}
 
 
-def variant(repeats=4, interval=5, viscosity=0):
+def variant(repeats=6, interval=5, viscosity=0.01, of="total", gap=GAP, **more):
     """What `automatic` picks for this soil, with other numbers."""
-    return treatment(averaging(repeats=repeats, viscosity=viscosity), relaxation(interval=interval), GAP)
+    return treatment(averaging(repeats=repeats, viscosity=viscosity, of=of), relaxation(interval=interval, **more), gap)
+
+
+FRONT = {"viscosity": 0.2, "interval": 3, "perStrain": 20000}
 
 
 ROWS = [
@@ -80,19 +83,25 @@ ROWS = [
     Row("automatic", "automatic", "automatic", AUTOMATIC),
     Row("interval1", "every step", "automatic", variant(interval=1)),
     Row("interval2", "every 2 steps", "automatic", variant(interval=2)),
-    Row("spelledOut", "every 5 steps, patch x 4", "automatic", variant()),
+    Row("spelledOut", "every 5 steps, patch x 6, viscosity 0.01", "automatic", variant()),
     Row("interval10", "every 10 steps", "automatic", variant(interval=10)),
     Row("repeats2", "patch x 2", "automatic", variant(repeats=2)),
-    Row("repeats6", "patch x 6", "automatic", variant(repeats=6)),
+    Row("repeats4", "patch x 4", "automatic", variant(repeats=4)),
+    Row("viscosity0", "viscosity 0", "automatic", variant(viscosity=0)),
     Row("viscosity05", "viscosity 0.05", "automatic", variant(viscosity=0.05)),
     Row("viscosity2", "viscosity 0.2", "automatic", variant(viscosity=0.2)),
+    Row("front", "viscosity 0.2, every 3, perStrain 20000", "automatic", variant(**FRONT)),
     Row("automaticPic3", "automatic, PIC 3 1/s", "automatic", merged(AUTOMATIC, LONGER, {SCHEMES: {"picRate": "3"}})),
     Row("plainWhole", "plain, no splitting", "scene", merged(PLAIN, WHOLE), "plainWhole"),
     Row("automaticWhole", "automatic, no splitting", "scene", merged(AUTOMATIC, WHOLE), "plainWhole"),
+    Row("frontWhole", "viscosity 0.2, every 3, perStrain 20000, no splitting", "scene", merged(variant(**FRONT), WHOLE),
+        "plainWhole"),
     Row("plainCoarse", "plain, h = 0.4 m", "scene", merged(PLAIN, COARSE), "plainCoarse"),
     Row("automaticCoarse", "automatic, h = 0.4 m", "scene", merged(AUTOMATIC, COARSE), "plainCoarse"),
     Row("plainDilatant", "plain, psi = 10 deg", "scene", merged(PLAIN, DILATANT), "plainDilatant", False),
     Row("automaticDilatant", "automatic, psi = 10 deg", "scene", merged(AUTOMATIC, DILATANT), "plainDilatant", False),
+    Row("frontDilatant", "viscosity 0.2, every 3, perStrain 20000, psi = 10 deg", "scene",
+        merged(variant(of="elastic", gap="", **FRONT), DILATANT), "plainDilatant", False),
     Row("WDilatant", "W, psi = 10 deg", "scene", merged(W, DILATANT), "plainDilatant", False),
 ]
 
