@@ -30,6 +30,8 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
     const int order = scene_.transferOrder;
     const bool xpic = scene_.transfer == Transfer::XPIC;
     const double back = xpic ? kick_ : 0; // v_i = v* - dt a
+    const double share =
+        scene_.filterRate ? -std::expm1(-*scene_.filterRate * double(scene_.filterInterval) * kick_) : 1;
     double factor = order;
     filterRow([&](nodal::NodeRow<dim>& row, const state::Block&, Record* out) {
         for (Index i = row.begin; i < row.end; ++i)
@@ -66,8 +68,10 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
                 out[i][1 + dim + a] += back * row.node[i][1 + dim + a];
                 out[i][1 + a] = row.node[i][1 + a]; // v*, which says what the walls hold
             }
-        // What walls take from the filtered velocity is an impulse too: sum m_p v_p = sum m_i times what is left here.
+        // What walls take from the filtered velocity is an impulse too, of the share that is mixed in: sum m_p v_p = sum
+        // m_i times what is left here.
         const auto book = [&](double sign) {
+            sign *= share;
             for (Index i = row.begin; i < row.end; ++i)
                 for (int a = 0; a < dim; ++a)
                     row.sums->wallImpulse[a] += sign * row.node[i][0] * out[i][1 + dim + a];
