@@ -214,13 +214,23 @@ def schemes(shape, update):
     return ("system/mpmSchemes", "shape", shape), ("system/mpmSchemes", "stressUpdate", update)
 
 
-def treatment(word):
-    """A change of system/mpmSchemes: its stressTreatment, "automatic" or "{ ... }"; "plain" is the scheme without."""
+# stressTreatment of system/mpmSchemes, by the names that tables have.
+TREATMENTS = {"automatic": "automatic;", "averaging": "{ volumetricAveraging { region patch; repeats 4; } }",
+              "cell averaging": "{ volumetricAveraging { region cell; } }",
+              "elastic averaging": "{ volumetricAveraging { region patch; repeats 4; of elastic; } }",
+              "conjugate averaging": "{ volumetricAveraging { region cell; conjugate yes; } }",
+              "relaxation": "{ stressRelaxation { target filtered; } }",
+              "relaxation, least squares": "{ stressRelaxation { target leastSquares; } }",
+              "relaxation, smoothed": "{ stressRelaxation { target smoothed; } }", "gap": "{ tensionGap yes; }"}
+
+
+def treatment(name):
+    """A change of system/mpmSchemes: one of TREATMENTS, or "plain", the scheme without."""
     def change(run):
         run.remove("system/mpmSchemes", "stressTreatment")
-        if word != "plain":
+        if name != "plain":
             path = run.folder / "system/mpmSchemes"
-            path.write_text(path.read_text() + f"stressTreatment {word}" + ("\n" if word.startswith("{") else ";\n"))
+            path.write_text(path.read_text() + f"stressTreatment {TREATMENTS[name]}\n")
     return change
 
 

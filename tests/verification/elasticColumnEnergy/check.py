@@ -6,7 +6,7 @@ treatment; with 18 cells a wave at most 1 % less than without treatment; energy 
 import numpy as np
 from verification import Number, Verification, set_fields, treatment
 
-TREATMENTS = ("plain",)
+NAMES = ("plain", "automatic", "averaging", "cell averaging", "relaxation", "relaxation, least squares", "relaxation, smoothed")
 LAWS = ("elastic", "strong")
 
 case = Verification(__file__, __doc__)
@@ -61,7 +61,7 @@ COLUMNS = (Column("smooth walls", 32), Column("free sides", 20, free=True), Colu
            Column("mode 4", 64, 4), Column("mode 4, coarse", 32, 4))
 for column in COLUMNS:
     for law in LAWS:
-        for word in TREATMENTS:
+        for word in NAMES:
             share, losses = column.kept(law, word)
             tag = f"({column.name}, {law}, {word})"
             plain.setdefault((column.name, law), share[-1])

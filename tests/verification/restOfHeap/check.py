@@ -6,7 +6,7 @@ half second; the peak is that of the plain scheme within 3 %."""
 import numpy as np
 from verification import PROJECT, Number, Verification, treatment
 
-TREATMENTS = ("plain",)
+NAMES = ("plain", "automatic")
 
 case = Verification(__file__, __doc__)
 case.source = PROJECT / "cases/collapsingSoilColumn"
@@ -51,7 +51,7 @@ def rest(what, word):
 
 
 rows, plain = [], {}
-for what, words in (("splitting", TREATMENTS), ("no splitting", TREATMENTS), ("picRate 0", TREATMENTS)):
+for what, words in (("splitting", NAMES), ("no splitting", NAMES), ("picRate 0", NAMES)):
     for word in words:
         found, tag = rest(what, word), f"({what}, {word})"
         plain.setdefault(what, found)

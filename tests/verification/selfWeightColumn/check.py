@@ -7,7 +7,7 @@ treatment the stress of every particle is within 0.5 % of rho g H."""
 import numpy as np
 from verification import Number, Verification, rms, treatment
 
-TREATMENTS = ("plain",)
+NAMES = ("plain", "automatic", "averaging", "cell averaging", "relaxation", "relaxation, least squares", "relaxation, smoothed")
 
 case = Verification(__file__, __doc__)
 LAWS = ("linearElastic", "smallStrain", "hencky", "neoHookean")
@@ -107,7 +107,7 @@ for what, column, law, N in (("soil", soil, "linearElastic", 30), ("soil", soil,
                              ("soil", soil, "mohrCoulomb", 60), ("strains to 4 %", stiff, "linearElastic", 40)):
     K0, H = 0.42 / 0.58 if column is soil else 0.0, column.H
     more = [("system/mpmSchemes", "picRate", 150), ("constant/materialProperties", "soil", SOIL[law])] if column is soil else []
-    for word in TREATMENTS:
+    for word in NAMES:
         run = column.solve("linearElastic", "uGIMP", N, *more, treatment(word))
         Y = run.state(0).by_id("position")[:, 1]
         stress = run.state().by_id("stress") / column.weight(0)
