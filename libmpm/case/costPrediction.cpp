@@ -129,6 +129,7 @@ void enableOptional(const Particles& from, Particles& to)
             to.enableAffine();
     to.keepTensionGap(from.hasTensionGap());
     to.keepDilationRate(from.hasDilationRate());
+    to.keepFlowMemory(from.hasFlowMemory());
     to.keepViscousStress(from.hasViscousStress());
 }
 } // namespace

@@ -51,6 +51,11 @@ treatment::StressRelaxation readRelaxation(const Dictionary& d)
         r.rate = d.get<double>({"rate", "share per second at most, default 0.6 c_p/h", unit::rate, Bound::positive()});
     r.perStrain = d.get<double>({"perStrain", "bound of the rate over the strain rate, 0: none", unit::none,
                                  Bound::nonNegative(), r.perStrain});
+    if (d.found("memory"))
+        r.memory = d.get<double>({"memory", "time in which yielding is forgotten, default 400 h/c_p", unit::time,
+                                  Bound::positive()});
+    if (r.memory && !r.followsFlow())
+        d.fail("memory", "it with perStrain 0", "it with perStrain > 0: else the rate is the same everywhere and for ever");
     r.interval = d.get<Index>({"interval", "steps between relaxations", unit::none, Bound::atLeast(1), r.interval});
     return r;
 }

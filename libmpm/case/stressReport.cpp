@@ -97,6 +97,7 @@ std::vector<Value> values(const StressReport& r, bool against)
         appendComparison(out, r.against);
     out.push_back({"noiseBeyondFilter", r.filtered.beyondFilter}); // behind all others: columns keep their places
     out.push_back({"noiseFloorOfField", r.filtered.floorOfField});
+    out.push_back({"viscosityLoss", r.loss.viscosity});
     return out;
 }
 
@@ -122,9 +123,10 @@ RemedyLoss remedyLoss(const state::Ledger& ledger)
     };
     out.relaxation = share("relaxationLoss");
     out.averaging = share("averagingLoss");
+    out.viscosity = share("viscosityLoss");
     out.gap = share("gapWork");
     out.transfer = share("transferLoss");
-    out.total = std::abs(out.relaxation) + std::abs(out.averaging) + std::abs(out.gap);
+    out.total = std::abs(out.relaxation) + std::abs(out.averaging) + std::abs(out.viscosity) + std::abs(out.gap);
     return out;
 }
 

@@ -8,7 +8,7 @@
 ///                          raw normal stress along gravity against the weight above (smoothing/overburden.hpp); not
 ///                          numbers without gravity along one axis
 ///     volumeError          volume the law's returns to the apex made beyond the flow rule, of the initial volume
-///     remedyEnergyLoss     sum of |relaxationLoss|, |averagingLoss|, |gapWork| below
+///     remedyEnergyLoss     sum of |relaxationLoss|, |averagingLoss|, |viscosityLoss|, |gapWork| below
 ///     particles            [1]
 ///     noiseXX, noiseZZ, noiseXY (noiseYZ, noiseZX in 3D)
 ///                          N of the other components
@@ -29,7 +29,7 @@
 ///     releasedEnergy       [J], per metre in 2D: gravityWork + tractionWork + bodyForceWork of the ledger; where these
 ///                          are zero, the kinetic and elastic energy at the start
 ///                          (a body that swings hands the work of gravity back: compare times of the same phase)
-///     relaxationLoss, averagingLoss, gapWork, transferLoss
+///     relaxationLoss, averagingLoss, gapWork, transferLoss (viscosityLoss: at the end)
 ///                          entries of the ledger over releasedEnergy; 0 where the ledger has no such entry. What
 ///                          filters of velocity (PIC, XPIC) take is part of transferLoss, with what every transfer
 ///                          takes: it is no part of remedyEnergyLoss
@@ -66,6 +66,7 @@ struct RemedyLoss
 {
     double released = 0; ///< [J]
     double relaxation = 0, averaging = 0, gap = 0, transfer = 0;
+    double viscosity = 0; ///< viscosityLoss
     double total = 0; ///< of the first three, as absolute values
 };
 

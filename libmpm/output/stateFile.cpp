@@ -144,6 +144,8 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
         plain("tensionGap", p.tensionGap, "1");
     if (p.hasDilationRate())
         plain("dilationRate", p.dilationRate, "1/s");
+    if (p.hasFlowMemory())
+        plain("flowMemory", p.flowMemory, "1");
     if (p.hasViscousStress())
         plain("viscousStress", p.viscousStress, "Pa");
 }
@@ -195,6 +197,11 @@ void readParticles(const Hdf5File& file, state::Particles& p)
     {
         p.keepDilationRate(true);
         plain("dilationRate", p.dilationRate);
+    }
+    if (file.exists("/particles/flowMemory"))
+    {
+        p.keepFlowMemory(true);
+        plain("flowMemory", p.flowMemory);
     }
     if (file.exists("/particles/viscousStress"))
     {

@@ -20,7 +20,8 @@
 ///     /particles/affine          (N, dim, dim) float64 [1/s], affine velocity, only with APIC and TPIC
 ///     /particles/tensionGap      (N)           float64, only with tensionGap; /particles/dilationRate (N) float64 [1/s],
 ///                                              only with volumetricAveraging of elastic; /particles/viscousStress
-///                                              (N) float64 [Pa], only with its viscosity
+///                                              (N) float64 [Pa], only with its viscosity; /particles/flowMemory (N)
+///                                              float64, only with stressRelaxation
 ///     /grid/origin (3) [m], /grid/cellSize [m], /grid/cells (3) int64, attributes dimension; periodicX, Y, Z if it is
 ///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run
 ///     /patches/<name>/centre (n, dim), edges (n, dim (dim - 1)) [m]; attribute index (place in the list)

@@ -73,6 +73,11 @@ void Particles::keepDilationRate(bool keep)
     keepColumn(keep, mass.size(), hasDilationRate_, dilationRate);
 }
 
+void Particles::keepFlowMemory(bool keep)
+{
+    keepColumn(keep, mass.size(), hasFlowMemory_, flowMemory);
+}
+
 void Particles::keepViscousStress(bool keep)
 {
     keepColumn(keep, mass.size(), hasViscousStress_, viscousStress);

@@ -53,12 +53,14 @@ struct Particles
     std::array<Column<double>, 9> affine;
     Column<double> tensionGap;   ///< volumetric strain a particle is open by (treatment/tensionGap.hpp) [-]
     Column<double> dilationRate; ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
+    Column<double> flowMemory;    ///< 1 where the law yields, fading (treatment/stressRelaxation.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
 
     bool hasX() const { return hasX_; }
     bool hasAffine() const { return hasAffine_; }
     bool hasTensionGap() const { return hasTensionGap_; }
     bool hasDilationRate() const { return hasDilationRate_; }
+    bool hasFlowMemory() const { return hasFlowMemory_; }
     bool hasViscousStress() const { return hasViscousStress_; }
     /// Adds the columns of X: the positions as they are.
     void enableX();
@@ -69,6 +71,7 @@ struct Particles
     /// Adds the column, zero, or takes it away; does nothing where that is so already.
     void keepTensionGap(bool keep);
     void keepDilationRate(bool keep);
+    void keepFlowMemory(bool keep);
     void keepViscousStress(bool keep);
 
     Index size() const { return size_; }
@@ -111,13 +114,15 @@ struct Particles
             visit(tensionGap);
         if (hasDilationRate_)
             visit(dilationRate);
+        if (hasFlowMemory_)
+            visit(flowMemory);
         if (hasViscousStress_)
             visit(viscousStress);
     }
 
   private:
     bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false,
-         hasViscousStress_ = false;
+         hasFlowMemory_ = false, hasViscousStress_ = false;
     Index size_ = 0;
 };
 } // namespace mpm::state

@@ -190,7 +190,7 @@ class ExplicitStepper : public Stepper
     void takeAverage(Workspace& ws, const state::Tile& tile, Index first, int count);
     void loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes], double (&work)[lanes]);
     void loadViscosity(Workspace& ws, Index first, int count) const;
-    double viscousWork(Workspace& ws, const constitutive::StressLanes<dim>& strain, const double (&volume)[lanes]) const;
+    double viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain, const double (&volume)[lanes]) const;
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
     void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
@@ -252,7 +252,7 @@ class ExplicitStepper : public Stepper
     treatment::CellAverage cells_;
     std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
     std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
-    double relaxationRate_ = 0;
+    double relaxationRate_ = 0, flowMemory_ = 0;
     std::vector<double> viscosities_; ///< eta of each material
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;

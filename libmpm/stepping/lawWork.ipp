@@ -93,7 +93,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     if (viscous())
     {
         transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, strainOfForces, ws.volumeBefore);
+        const double work = viscousWork(ws, dt, strainOfForces, ws.volumeBefore);
         sums.strainWorkBefore += work;
         sums.viscosityLoss += 0.5 * work;
     }
@@ -133,7 +133,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         ws.volume[l] *= ws.J[l];
         ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
-    if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart())
+    if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() || scene_.treatment.followsFlow())
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
@@ -175,7 +175,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         for (int l = 0; l < lanes; ++l)
             ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
         transfer::storeLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, strainOfForces, ws.volume);
+        const double work = viscousWork(ws, dt, strainOfForces, ws.volume);
         sums.strainWork += work;
         sums.viscosityLoss += 0.5 * work;
     }

@@ -90,15 +90,19 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::relaxStress(Workspace& ws, Index first, int count, double dt,
                                               const constitutive::StressLanes<dim>& strain)
 {
-    alignas(64) double share[lanes], before[lanes], after[lanes], work[lanes], workAfter[lanes];
+    alignas(64) double flow[lanes], share[lanes], before[lanes], after[lanes], work[lanes], workAfter[lanes];
     elasticEnergy(ws.law, ws.halfOverBulk, ws.quarterOverShear, before);
     workOfStrain<dim>(ws.law.stress, strain, work);
+    if (scene_.treatment.followsFlow())
+        transfer::loadLanes(state_.particles.flowMemory.data() + first, count, flow);
+    else
+        std::fill_n(flow, lanes, 1.0);
     for (int l = 0; l < lanes; ++l)
     {
         double square = 0;
         for (int k = 0; k < stressSize<dim>; ++k)
             square += (k < 3 ? 1 : 2) * strain[k][l] * strain[k][l];
-        share[l] = treatment::relaxedShare(*scene_.treatment.relaxation, relaxationRate_, std::sqrt(square) / dt, dt);
+        share[l] = treatment::relaxedShare(*scene_.treatment.relaxation, relaxationRate_, flow[l] * std::sqrt(square) / dt, dt);
     }
     if (anyHyperelastic_)
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {

@@ -5,6 +5,8 @@
 #include "stepping/timeStep.hpp"
 #include "stepping/volumetricAveraging.ipp"
 
+#include <cmath>
+
 namespace mpm::stepping
 {
 /// Columns of the state that belong to the treatment; those of another run's go.
@@ -13,14 +15,18 @@ void ExplicitStepper<dim, Shape>::prepareTreatment()
 {
     state_.particles.keepTensionGap(scene_.treatment.tensionGap);
     state_.particles.keepDilationRate(scene_.treatment.averagesElasticPart());
+    state_.particles.keepFlowMemory(scene_.treatment.followsFlow());
     state_.particles.keepViscousStress(viscous());
     for (const auto& material : scene_.materials)
         if (viscous())
             viscosities_.push_back(scene_.treatment.averaging->viscosity * material.density * state_.grid.h *
                                    material.waveSpeed());
-    if (scene_.treatment.relaxation)
-        relaxationRate_ = treatment::relaxationRate(*scene_.treatment.relaxation,
-                                                    fastestWave(state_, scene_.materials), state_.grid.h);
+    if (const auto& relaxation = scene_.treatment.relaxation)
+    {
+        const double fastest = fastestWave(state_, scene_.materials);
+        relaxationRate_ = treatment::relaxationRate(*relaxation, fastest, state_.grid.h);
+        flowMemory_ = treatment::flowMemory(*relaxation, fastest, state_.grid.h);
+    }
 }
 
 template <int dim, class Shape>
@@ -59,7 +65,7 @@ void ExplicitStepper<dim, Shape>::openTreatment(Workspace& ws, const state::Tile
         grid_.template clearWindow<Record>(tile);
 }
 
-/// The laws with tension gaps, and the plastic volume change they leave.
+/// The laws with tension gaps; what they leave of plastic volume change, and that they yielded.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt)
 {
@@ -81,6 +87,15 @@ void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, in
         treatment::closeGap(chunk, ws.gap);
         transfer::storeLanes(p.tensionGap.data() + first, count, ws.gap.gap);
         ws.sums.gapWork += transfer::sumOfProducts(ws.volumeMiddle, ws.gap.work);
+    }
+    if (scene_.treatment.followsFlow())
+    {
+        alignas(64) double flow[lanes];
+        const double fade = std::exp(-dt / flowMemory_);
+        transfer::loadLanes(p.flowMemory.data() + first, count, flow);
+        for (int l = 0; l < lanes; ++l)
+            flow[l] = chunk.region[l] != constitutive::Region::elastic ? 1 : fade * flow[l];
+        transfer::storeLanes(p.flowMemory.data() + first, count, flow);
     }
     if (scene_.treatment.averagesElasticPart())
     {

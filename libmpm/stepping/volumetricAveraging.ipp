@@ -154,7 +154,7 @@ void ExplicitStepper<dim, Shape>::loadViscosity(Workspace& ws, Index first, int 
 
 /// sum V q tr e.
 template <int dim, class Shape>
-double ExplicitStepper<dim, Shape>::viscousWork(Workspace& ws, const constitutive::StressLanes<dim>& strain,
+double ExplicitStepper<dim, Shape>::viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain,
                                                 const double (&volume)[lanes]) const
 {
     alignas(64) double work[lanes];
@@ -163,6 +163,8 @@ double ExplicitStepper<dim, Shape>::viscousWork(Workspace& ws, const constitutiv
         double trace = 0;
         for (int a = 0; a < dim; ++a)
             trace += strain[a][l];
+        if (conjugate()) // `strain` is then the averaged one
+            trace -= dt * dim * ws.spread[l];
         work[l] = ws.viscous[l] * trace;
     }
     return transfer::sumOfProducts(volume, work);

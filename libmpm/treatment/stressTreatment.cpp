@@ -48,18 +48,23 @@ std::string describe(const StressTreatment& t)
     return text.empty() ? "none" : text;
 }
 
-/// Averaging cures locking, which any law can suffer from when it flows or is nearly incompressible; relaxation what is
-/// left. A law that dilates keeps its plastic volume where it is made. The gap is for laws that drop volume.
+/// Averaging cures locking, which laws suffer from when they flow or are nearly incompressible; relaxation what is left of
+/// noise, which flow makes. A law that dilates keeps its plastic volume where it is made. The gap is for laws that drop
+/// volume. Elastic bodies make no noise: averages over cells where nu > 0.4, else nothing.
 StressTreatment automatic(const std::vector<constitutive::Material>& materials)
 {
     using constitutive::Law;
     StressTreatment t;
     const bool dilates = firstWith(materials, [](const Law& law) { return law.dilates(); });
-    const bool rates = firstWith(materials, [](const Law& law) { return !law.hyperelastic(); });
+    if (!firstWith(materials, [](const Law& law) { return law.plastic(); }))
+    {
+        if (firstWith(materials, [](const Law& law) { return law.poissonRatio() > 0.4; }))
+            t.averaging = VolumetricAveraging{AveragingRegion::cell};
+        return t;
+    }
     t.averaging = VolumetricAveraging{AveragingRegion::patch, 6, dilates ? AveragedPart::elastic : AveragedPart::total,
                                       false, 0.01};
-    if (rates)
-        t.relaxation = StressRelaxation{};
+    t.relaxation = StressRelaxation{};
     t.tensionGap = firstWith(materials, [](const Law& law) { return law.dropsApexVolume(); });
     return t;
 }

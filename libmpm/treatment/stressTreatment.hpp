@@ -21,6 +21,7 @@ struct StressTreatment
     bool tensionGap = false;
 
     bool any() const { return averaging || relaxation || tensionGap; }
+    bool followsFlow() const { return relaxation && relaxation->followsFlow(); }
     bool hasViscosity() const { return averaging && averaging->viscosity > 0; }
     /// Are strains other than those of the particle's own velocity gradient?
     bool averagesElasticPart() const { return averaging && averaging->of == AveragedPart::elastic; }
