@@ -2,7 +2,7 @@
 Measured: kinetic energy at 4 s over its peak, of the particles and of what the grid sees of their velocities; how far
 anything moves in the last half second, and what is still lost at the apex of the yield surface in it.
 Pass: with splitting and a treatment, kinetic energy below 1e-6 of its peak, nothing moves by more than 1 mm in the last
-half second; the peak is that of the plain scheme within 3 %."""
+half second; the peak is that of the plain scheme within 5 %."""
 import numpy as np
 from verification import PROJECT, Number, Verification, treatment
 
@@ -62,7 +62,7 @@ for what, words in (("splitting", NAMES), ("no splitting", NAMES), ("picRate 0",
             case.check(f"kinetic energy at 4 s over its peak {tag}", found["at 4 s"], "<", 1e-6)
             case.check(f"largest move in the last half second {tag}", found["moved [m]"], "<=", 1e-3, "m")
             case.check(f"peak over that of the plain scheme, less 1 {tag}",
-                       abs(found["peak [J/m]"] / plain[what]["peak [J/m]"] - 1), "<=", 0.03)
+                       abs(found["peak [J/m]"] / plain[what]["peak [J/m]"] - 1), "<=", 0.05)
 case.check("kinetic energy at 4 s over its peak (splitting, plain)", plain["splitting"]["at 4 s"], "<", 3e-6)
 case.check("of it on the grid, without PIC (plain)", plain["picRate 0"]["on the grid"], "<", 1e-6)
 case.table("", ["column", "treatment", "peak [kJ/m]", "at 4 s over peak", "on the grid over peak", "moved 3.5 to 4 s [m]",

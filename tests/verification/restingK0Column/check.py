@@ -6,7 +6,7 @@ rho g H, no plastic work and no energy from or to a treatment, with every treatm
 import numpy as np
 from verification import Number, Verification, treatment
 
-NAMES = ("plain", "automatic", "averaging", "cell averaging", "relaxation", "relaxation, least squares", "relaxation, smoothed")
+NAMES = ("plain", "automatic")
 COLUMNS = ((8.0, "soil"), (8.0, "dilatantSoil"), (7.6, "elastic"))  # 7.6 m: the surface halves a cell
 STEPS, DT, H, SCALE = 100_000, 2e-3, 8.0, 1000 * 9.8 * 8.0
 
@@ -30,7 +30,7 @@ def rest(height, law, word):
     case.check(f"displacement over H {tag}", moved, "<", 1e-9)
     case.check(f"drift of stress over rho g H {tag}", drift, "<", 1e-9)
     scale = SCALE * H * 0.8
-    for name in ("plasticDissipation", "relaxationLoss", "averagingLoss", "gapWork"):
+    for name in ("plasticDissipation", "relaxationLoss", "averagingLoss", "viscosityLoss", "gapWork"):
         if name in budget.dtype.names:
             case.check(f"{name} over rho g H^2 {tag}", np.abs(budget[name]).max() / scale, "<=", 1e-14)
     rows.append([f"{height:g}", law, word, *[Number(value, ".0e", 10, floor=1e-10) for value in (speed, moved, drift)]])
