@@ -65,8 +65,7 @@ namespace mpm::cases
 struct RemedyLoss
 {
     double released = 0; ///< [J]
-    double relaxation = 0, averaging = 0, gap = 0, transfer = 0;
-    double viscosity = 0; ///< viscosityLoss
+    double relaxation = 0, averaging = 0, viscosity = 0, gap = 0, transfer = 0;
     double total = 0; ///< of the first three, as absolute values
 };
 

@@ -50,7 +50,8 @@ std::string describe(const StressTreatment& t)
 
 /// Averaging cures locking, which laws suffer from when they flow or are nearly incompressible; relaxation what is left of
 /// noise, which flow makes. A law that dilates keeps its plastic volume where it is made. The gap is for laws that drop
-/// volume. Elastic bodies make no noise: averages over cells where nu > 0.4, else nothing.
+/// volume. Elastic bodies make no noise: where nu > 0.4 averages over cells, conjugate, which add no energy to
+/// what moves for long; else nothing.
 StressTreatment automatic(const std::vector<constitutive::Material>& materials)
 {
     using constitutive::Law;
@@ -59,7 +60,7 @@ StressTreatment automatic(const std::vector<constitutive::Material>& materials)
     if (!firstWith(materials, [](const Law& law) { return law.plastic(); }))
     {
         if (firstWith(materials, [](const Law& law) { return law.poissonRatio() > 0.4; }))
-            t.averaging = VolumetricAveraging{AveragingRegion::cell};
+            t.averaging = VolumetricAveraging{AveragingRegion::cell, 0, AveragedPart::total, true};
         return t;
     }
     t.averaging = VolumetricAveraging{AveragingRegion::patch, 6, dilates ? AveragedPart::elastic : AveragedPart::total,

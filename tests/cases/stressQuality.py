@@ -174,7 +174,7 @@ class StressQuality(unittest.TestCase):
             self.assertAlmostEqual(row["inelasticVolumeChange"], row["volumeError"], delta=0.02 * row["volumeError"] + 1e-6)
             self.assertEqual(row["releasedEnergy"], ledger["gravityWork"] or ledger["initialStrainEnergy"])
             self.assertAlmostEqual(row["transferLoss"] * max(row["releasedEnergy"], 1), ledger["transferLoss"], delta=1e-6)
-            taken = [abs(ledger.get(name, 0)) for name in ("relaxationLoss", "averagingLoss", "gapWork")]
+            taken = [abs(ledger.get(name, 0)) for name in ("relaxationLoss", "averagingLoss", "viscosityLoss", "gapWork")]
             self.assertAlmostEqual(row["remedyEnergyLoss"] * max(row["releasedEnergy"], 1), sum(taken), delta=1e-6)
             self.assertIn(f"{row['noiseYY']:.4f}", table)
         self.assertGreater(row["volumeError"], 1e-3)  # the plain scheme makes volume
