@@ -13,7 +13,7 @@ from columnCase import ColumnCase
 from reproducibility import content
 
 END = "0.3"
-COLUMNS = {"tensionGap", "dilationRate", "viscousStress"}
+COLUMNS = {"tensionGap", "dilationRate", "viscousStress", "flowMemory"}
 
 
 def particles_of(case):
@@ -86,7 +86,7 @@ class Treated:
 
 
 class Automatic(Treated, Column):
-    HELD, LOST = {"tensionGap", "viscousStress"}, {"relaxationLoss", "averagingLoss", "viscosityLoss", "gapWork"}
+    HELD, LOST = {"tensionGap", "viscousStress", "flowMemory"}, {"relaxationLoss", "averagingLoss", "viscosityLoss", "gapWork"}
 
     @classmethod
     def prepare(cls):
@@ -94,7 +94,7 @@ class Automatic(Treated, Column):
 
 
 class AutomaticDilating(Treated, Column):
-    HELD, LOST = {"dilationRate", "viscousStress"}, {"relaxationLoss", "averagingLoss", "viscosityLoss"}
+    HELD, LOST = {"dilationRate", "viscousStress", "flowMemory"}, {"relaxationLoss", "averagingLoss", "viscosityLoss"}
 
     @classmethod
     def prepare(cls):
@@ -104,7 +104,7 @@ class AutomaticDilating(Treated, Column):
 class Conjugate(Treated, Column):
     """Relaxation and a filter at intervals that fit no time of writing."""
 
-    HELD, LOST = {"tensionGap"}, {"relaxationLoss", "gapWork"}
+    HELD, LOST = {"tensionGap", "flowMemory"}, {"relaxationLoss", "gapWork"}
 
     @classmethod
     def prepare(cls):

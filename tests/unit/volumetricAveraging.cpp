@@ -59,7 +59,7 @@ TEST_CASE("the budget closes to round-off and momentum is kept, of every average
                               1e-12 * t.mass);
                     CHECK((s.ledger.viscosityLoss != 0) == (kind.viscosity > 0));
                     if (kind.viscosity > 0) // motion no average sees dies out
-                        CHECK(s.ledger.viscosityLoss > 1e-3 * t.mass);
+                        CHECK(s.ledger.viscosityLoss > 1e-4 * t.mass);
                     if (kind.conjugate)
                         CHECK(s.ledger.averagingLoss == 0);
                     else // a body whose strains differ from those its forces work on exchanges that work
