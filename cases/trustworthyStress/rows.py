@@ -91,7 +91,7 @@ ROWS = [
     Row("viscosity05", "viscosity 0.05", "automatic", variant(viscosity=0.05)),
     Row("viscosity2", "viscosity 0.2", "automatic", variant(viscosity=0.2)),
     Row("front", "viscosity 0.2, every 3, perStrain 20000", "automatic", variant(**FRONT)),
-    Row("automaticPic3", "automatic, PIC 3 1/s", "automatic", merged(AUTOMATIC, LONGER, {SCHEMES: {"picRate": "3"}})),
+    Row("automaticPic3", "automatic, PIC 3 1/s, to 4 s", "automatic", merged(AUTOMATIC, LONGER, {SCHEMES: {"picRate": "3"}})),
     Row("plainWhole", "plain, no splitting", "scene", merged(PLAIN, WHOLE), "plainWhole"),
     Row("automaticWhole", "automatic, no splitting", "scene", merged(AUTOMATIC, WHOLE), "plainWhole"),
     Row("frontWhole", "viscosity 0.2, every 3, perStrain 20000, no splitting", "scene", merged(variant(**FRONT), WHOLE),
