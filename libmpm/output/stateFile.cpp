@@ -4,6 +4,7 @@
 #include "output/hdf5File.hpp"
 #include "output/hdf5Probe.hpp"
 #include "output/ledgerEntries.hpp"
+#include "output/optionalColumns.hpp"
 #include "output/replaceFile.hpp"
 #include "output/visualisation.hpp"
 #include "state/particleOrder.hpp"
@@ -140,14 +141,9 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
         file.writeRows<double>("/particles/referencePosition", {n, dim}, "m", interleaved(p.X, dim));
     if (p.hasAffine())
         file.writeRows<double>("/particles/affine", {n, dim, dim}, "1/s", interleaved(p.affine, dim * dim));
-    if (p.hasTensionGap())
-        plain("tensionGap", p.tensionGap, "1");
-    if (p.hasDilationRate())
-        plain("dilationRate", p.dilationRate, "1/s");
-    if (p.hasFlowMemory())
-        plain("flowMemory", p.flowMemory, "1");
-    if (p.hasViscousStress())
-        plain("viscousStress", p.viscousStress, "Pa");
+    for (const auto& optional : optionalColumns(p))
+        if (optional.has)
+            plain(optional.name, optional.column, optional.unit);
 }
 
 void readParticles(const Hdf5File& file, state::Particles& p)
@@ -188,26 +184,12 @@ void readParticles(const Hdf5File& file, state::Particles& p)
         p.enableAffine();
         file.readRows<double>("/particles/affine", {n, dim, dim}, dealTo(p.affine, dim * dim));
     }
-    if (file.exists("/particles/tensionGap"))
-    {
-        p.keepTensionGap(true);
-        plain("tensionGap", p.tensionGap);
-    }
-    if (file.exists("/particles/dilationRate"))
-    {
-        p.keepDilationRate(true);
-        plain("dilationRate", p.dilationRate);
-    }
-    if (file.exists("/particles/flowMemory"))
-    {
-        p.keepFlowMemory(true);
-        plain("flowMemory", p.flowMemory);
-    }
-    if (file.exists("/particles/viscousStress"))
-    {
-        p.keepViscousStress(true);
-        plain("viscousStress", p.viscousStress);
-    }
+    for (const auto& optional : optionalColumns(p))
+        if (file.exists("/particles/" + optional.name))
+        {
+            (p.*optional.keep)(true);
+            plain(optional.name, optional.column);
+        }
     p.padLastChunk();
 }
 

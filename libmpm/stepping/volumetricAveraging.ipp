@@ -143,13 +143,19 @@ void ExplicitStepper<dim, Shape>::loseToAverage(Workspace& ws, double dt, const 
     ws.sums.averagingLoss += transfer::sumOfProducts(volume, lost);
 }
 
-/// eta of each lane's material.
+/// eta of each lane's material; where relaxation follows flow, so does the viscosity.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::loadViscosity(Workspace& ws, Index first, int count) const
 {
     const std::int32_t* material = state_.particles.material.data() + first;
     for (int l = 0; l < lanes; ++l)
         ws.viscosity[l] = viscosities_[std::size_t(material[l < count ? l : 0])];
+    if (!scene_.treatment.followsFlow())
+        return;
+    alignas(64) double flow[lanes];
+    transfer::loadLanes(state_.particles.flowMemory.data() + first, count, flow);
+    for (int l = 0; l < lanes; ++l)
+        ws.viscosity[l] *= flow[l];
 }
 
 /// sum V q tr e.

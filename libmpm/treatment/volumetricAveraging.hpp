@@ -28,7 +28,8 @@
 /// viscosity: volume change that the average leaves out has no stiffness; it would linger in the velocities and feed the
 /// noise of stresses. A pressure -eta (tr D - theta) in the forces, eta = viscosity rho h c_p, takes that motion away and
 /// leaves alone what the average sees (the hourglass viscosity of Flanagan & Belytschko 1981, doi
-/// 10.1002/nme.1620170504, for the modes of an average). Booked as viscosityLoss.
+/// 10.1002/nme.1620170504, for the modes of an average). Booked as viscosityLoss. Beside a stressRelaxation that follows
+/// flow, eta is multiplied by the same memory a_p of it (stressRelaxation.hpp): elastic waves stay.
 ///
 /// Sources: mean dilatation of Nagtegaal, Parks & Rice 1974 (doi 10.1016/0045-7825(74)90032-2) and Hughes 1980 (doi
 /// 10.1002/nme.1620150914); cell averages in MPM: Mast, Mackenzie-Helnwein, Arduino, Miller & Shin 2012 (doi

@@ -116,7 +116,8 @@ TEST_CASE("energy of remedies over the energy released")
     std::set<std::string> there;
     output::forEachLedgerEntry(ledger, [&](const char* name, auto& value, const char*) {
         if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-            if (const std::string word = name; word == "relaxationLoss" || word == "averagingLoss" || word == "gapWork")
+            if (const std::string word = name; word == "relaxationLoss" || word == "averagingLoss" ||
+                                                  word == "viscosityLoss" || word == "gapWork")
             {
                 value = word == "gapWork" ? -4 : 8;
                 there.insert(word);
@@ -125,8 +126,9 @@ TEST_CASE("energy of remedies over the energy released")
     const auto taken = cases::remedyLoss(ledger);
     CHECK(taken.relaxation == Approx(there.count("relaxationLoss") * 0.01));
     CHECK(taken.averaging == Approx(there.count("averagingLoss") * 0.01));
+    CHECK(taken.viscosity == Approx(there.count("viscosityLoss") * 0.01));
     CHECK(taken.gap == Approx(there.count("gapWork") * -0.005));
-    CHECK(taken.total == Approx(taken.relaxation + taken.averaging - taken.gap));
+    CHECK(taken.total == Approx(taken.relaxation + taken.averaging + taken.viscosity - taken.gap));
 }
 
 TEST_CASE("a report of a heap at rest, and its row")
@@ -171,8 +173,8 @@ TEST_CASE("a report of a heap at rest, and its row")
             CHECK(at("overburdenCorrelation") == Approx(1));
             CHECK(at("overburdenRmsError") < 1e-6);
             CHECK(at("particles") == double(p.size()));
-            CHECK(std::vector<std::string>(names.end() - 2, names.end()) ==
-                  std::vector<std::string>{"noiseBeyondFilter", "noiseFloorOfField"});
+            CHECK(std::vector<std::string>(names.end() - 3, names.end()) ==
+                  std::vector<std::string>{"noiseBeyondFilter", "noiseFloorOfField", "viscosityLoss"});
             CHECK(at("noiseBeyondFilter") == report.filtered.beyondFilter);
             CHECK(at("noiseFloorOfField") == report.filtered.floorOfField);
             CHECK(at("noiseBeyondFilter") < 0.8 * at("noiseYY")); // nothing but a linear field: all is floor
