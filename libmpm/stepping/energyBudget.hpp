@@ -25,7 +25,7 @@
 ///                          sum V0 (W' - W) - (V s + V' S) : e/2, third order in dt
 ///     staggering           energy that velocities lack because they live half a step off the stresses, a function of
 ///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
-///                          leapfrog keeps kinetic + strain energy + staggering, not their sum without it
+///                          leapfrog keeps kinetic + strain energy - staggering, not their sum without it
 ///     residual             gravityWork + tractionWork + bodyForceWork + finiteStrainWork + change of staggering
 ///                          - change of kineticEnergy - change of strainEnergy - all losses
 /// Losses are positive when energy left the body. Leaving any entry out makes the residual grow by it. What remains is
