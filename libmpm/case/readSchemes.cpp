@@ -67,13 +67,14 @@ void readTransfer(const Dictionary& d, stepping::Scene& scene)
                 d.fail(word, "it with transfer " + name, "it with XPIC and FMPM only");
     if (ordered && d.found("filterRate"))
     {
-        scene.filterRate = d.get<double>(
-            {"filterRate", "share of the filter mixed in per second", unit::rate, Bound::nonNegative()});
+        scene.filterRate =
+            d.get<double>({"filterRate", "share of the filter mixed in per second", unit::rate, Bound::nonNegative()});
         scene.filterInterval =
             d.get<Index>({"filterInterval", "steps between filters", unit::none, Bound::atLeast(1), Index(1)});
     }
     else if (ordered && d.found("filterInterval"))
-        d.fail("filterInterval", "it without filterRate", "it with filterRate: without, every step is filtered in full");
+        d.fail("filterInterval", "it without filterRate",
+               "it with filterRate: without, every step is filtered in full");
 }
 } // namespace
 

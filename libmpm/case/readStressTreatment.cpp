@@ -25,8 +25,7 @@ treatment::VolumetricAveraging readAveraging(const Dictionary& d)
     else if (d.found("repeats"))
         d.fail("repeats", "it with region cell", "it with region patch");
     a.of = d.choose("of", "part of the volume change that is averaged",
-                    {{"total", "all of it"}, {"elastic", "without what the flow rule makes"}},
-                    "total") == "total"
+                    {{"total", "all of it"}, {"elastic", "without what the flow rule makes"}}, "total") == "total"
                ? AveragedPart::total
                : AveragedPart::elastic;
     a.conjugate = d.get<bool>({"conjugate", "yes: forces take the averaged pressure", unit::none, {}, false});
@@ -52,10 +51,11 @@ treatment::StressRelaxation readRelaxation(const Dictionary& d)
     r.perStrain = d.get<double>({"perStrain", "bound of the rate over the strain rate, 0: none", unit::none,
                                  Bound::nonNegative(), r.perStrain});
     if (d.found("memory"))
-        r.memory = d.get<double>({"memory", "time in which yielding is forgotten, default 400 h/c_p", unit::time,
-                                  Bound::positive()});
+        r.memory = d.get<double>(
+            {"memory", "time in which yielding is forgotten, default 400 h/c_p", unit::time, Bound::positive()});
     if (r.memory && !r.followsFlow())
-        d.fail("memory", "it with perStrain 0", "it with perStrain > 0: else the rate is the same everywhere and for ever");
+        d.fail("memory", "it with perStrain 0",
+               "it with perStrain > 0: else the rate is the same everywhere and for ever");
     r.interval = d.get<Index>({"interval", "steps between relaxations", unit::none, Bound::atLeast(1), r.interval});
     return r;
 }
@@ -67,7 +67,8 @@ treatment::StressTreatment readRemedies(const Dictionary& d)
         t.averaging = readAveraging(*averaging);
     if (const Dictionary* relaxation = d.findDict("stressRelaxation", "stresses go towards a smooth field"))
         t.relaxation = readRelaxation(*relaxation);
-    t.tensionGap = d.get<bool>({"tensionGap", "yes: volume opened at the apex must close first", unit::none, {}, false});
+    t.tensionGap =
+        d.get<bool>({"tensionGap", "yes: volume opened at the apex must close first", unit::none, {}, false});
     return t;
 }
 } // namespace
@@ -87,8 +88,9 @@ treatment::StressTreatment readStressTreatment(const Dictionary& d, const steppi
     if (!t.any())
         return t;
     if (scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
-        d.fail(word, "it with " + stepping::methodText(scene),
-               "none, or timeIntegration symplecticEuler: stages of a Runge-Kutta step are those of the plain equations");
+        d.fail(
+            word, "it with " + stepping::methodText(scene),
+            "none, or timeIntegration symplecticEuler: stages of a Runge-Kutta step are those of the plain equations");
     if (const auto why = treatment::objection(t, scene.materials))
         (single ? *d.findDict(word) : d).fail(why->word, why->found, why->allowed);
     return t;

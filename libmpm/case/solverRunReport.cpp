@@ -211,9 +211,8 @@ void SolverRun::summary()
     line("residual",
          fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
                      supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));
-    line("apex",
-         fmt::format("{} returns, {:.4g} m^{} of volume {}", l.apexReturns, l.apexVolume, state_.particles.dim,
-                    scene_.scene.treatment.tensionGap ? "open" : "dropped"));
+    line("apex", fmt::format("{} returns, {:.4g} m^{} of volume {}", l.apexReturns, l.apexVolume, state_.particles.dim,
+                             scene_.scene.treatment.tensionGap ? "open" : "dropped"));
     if (runTime_->adjustable() && steps > 0)
         line("time step", fmt::format("{:.4g} to {:.4g} s, mean {:.4g} s; adapting it took {:.2g} % of the run",
                                       smallestStep_, largestStep_, (state_.time - firstTime_) / double(steps),

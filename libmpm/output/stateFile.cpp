@@ -210,7 +210,8 @@ void readLedger(const Hdf5File& file, state::Ledger& ledger)
 {
     forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
         using Value = std::decay_t<decltype(value)>;
-        const bool late = name == "relaxationLoss" || name == "averagingLoss" || name == "viscosityLoss" || name == "gapWork";
+        const bool late =
+            name == "relaxationLoss" || name == "averagingLoss" || name == "viscosityLoss" || name == "gapWork";
         if (late && !file.exists("/ledger/" + name))
             return; // a file of a version that had none
         if constexpr (std::is_same_v<Value, Vector3>)

@@ -18,10 +18,8 @@
 ///     /particles/material, generation (N)      int32
 ///     /particles/referencePosition (N, dim)    float64 [m], positions at the start; only where a case names them
 ///     /particles/affine          (N, dim, dim) float64 [1/s], affine velocity, only with APIC and TPIC
-///     /particles/tensionGap      (N)           float64, only with tensionGap; /particles/dilationRate (N) float64 [1/s],
-///                                              only with volumetricAveraging of elastic; /particles/viscousStress
-///                                              (N) float64 [Pa], only with its viscosity; /particles/flowMemory (N)
-///                                              float64, only with stressRelaxation
+///     /particles/tensionGap, dilationRate, flowMemory, viscousStress (N) float64, those a stressTreatment in use keeps
+///                                              (output/optionalColumns.hpp)
 ///     /grid/origin (3) [m], /grid/cellSize [m], /grid/cells (3) int64, attributes dimension; periodicX, Y, Z if it is
 ///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run
 ///     /patches/<name>/centre (n, dim), edges (n, dim (dim - 1)) [m]; attribute index (place in the list)

@@ -51,8 +51,8 @@ struct Particles
     /// Affine part of the velocity near the particle, v(x) = v_p + C (x - x_p): dim x dim row by row [1/s], what the
     /// transfers APIC and TPIC carry.
     std::array<Column<double>, 9> affine;
-    Column<double> tensionGap;   ///< volumetric strain a particle is open by (treatment/tensionGap.hpp) [-]
-    Column<double> dilationRate; ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
+    Column<double> tensionGap;    ///< volumetric strain a particle is open by (treatment/tensionGap.hpp) [-]
+    Column<double> dilationRate;  ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
     Column<double> flowMemory;    ///< 1 where the law yields, fading (treatment/stressRelaxation.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
 
@@ -121,8 +121,8 @@ struct Particles
     }
 
   private:
-    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false,
-         hasFlowMemory_ = false, hasViscousStress_ = false;
+    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false, hasFlowMemory_ = false,
+         hasViscousStress_ = false;
     Index size_ = 0;
 };
 } // namespace mpm::state

@@ -26,14 +26,14 @@ struct Ledger
     double initialStaggering = 0; ///< the same at the first step
     double finiteStrainWork = 0;  ///< elastic energy that finite steps of a rate law make (energyBudget.hpp)
     double relaxationLoss = 0;    ///< elastic energy that stress relaxation takes (treatment/stressRelaxation.hpp)
-    double averagingLoss = 0;     ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
-    double viscosityLoss = 0;     ///< taken by its viscosity
-    double gapWork = 0;           ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
-    double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
-    double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2
-    double apexVolume = 0;        ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double bodyForceWork = 0;     ///< work of prescribed body forces other than gravity
-    double kineticEnergy = 0;     ///< of the particles, now
+    double averagingLoss = 0; ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
+    double viscosityLoss = 0; ///< taken by its viscosity
+    double gapWork = 0;       ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
+    double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2
+    double apexVolume = 0;    ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double bodyForceWork = 0; ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0; ///< of the particles, now
     double initialKineticEnergy = 0;
     double initialStrainEnergy = 0;
     Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]

@@ -206,7 +206,8 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
             ahead.add(gradient_[k].data());
     }
     const bool stresses = pass.strain || pass.then == Project::forces;
-    for (int k = 0; k < stressSize<dim> && (stresses || pass.round == Round::project || pass.round == Round::again); ++k)
+    for (int k = 0; k < stressSize<dim> && (stresses || pass.round == Round::project || pass.round == Round::again);
+         ++k)
         ahead.add(p.stress[k].data());
     if (stresses)
         ahead.add(p.volume.data());

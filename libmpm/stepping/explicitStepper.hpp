@@ -122,7 +122,7 @@ class ExplicitStepper : public Stepper
         constitutive::StressLanes<dim> smooth; ///< S sigma, or the correction
         treatment::OpenGap gap;
         alignas(64) double viscous[lanes], viscosity[lanes]; ///< normal stress of hourglass viscosity; eta
-        alignas(64) double spread[lanes]; ///< what an average adds to each normal rate of L
+        alignas(64) double spread[lanes];                    ///< what an average adds to each normal rate of L
         alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes], volumeMiddle[lanes];
         alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
         alignas(64) constitutive::TensorLanes<dim> L, F;
@@ -190,7 +190,8 @@ class ExplicitStepper : public Stepper
     void takeAverage(Workspace& ws, const state::Tile& tile, Index first, int count);
     void loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes], double (&work)[lanes]);
     void loadViscosity(Workspace& ws, Index first, int count) const;
-    double viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain, const double (&volume)[lanes]) const;
+    double viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain,
+                       const double (&volume)[lanes]) const;
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
     void callTreatedLaws(Workspace& ws, Index first, int count, double dt);

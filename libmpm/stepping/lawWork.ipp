@@ -203,8 +203,9 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
             for (int l = 0; l < lanes; ++l)
                 if (mine(l))
-                    energyBefore[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                                      0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
+                    energyBefore[l] =
+                        ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
+                        0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
         });
     sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
     sums.plasticWork += transfer::sumOfProducts(ws.volumeMiddle, chunk.plasticWork);

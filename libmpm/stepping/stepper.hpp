@@ -78,8 +78,8 @@ struct Scene
     /// MUSL with FLIP: particles move by the velocities w they are strained with, dt sum N w. By v* (METHOD Eq. 5) the
     /// difference of the two leaves positions and F an order apart: temporal errors of order 1, not 2.
     bool moveByStrainVelocity = false;
-    /// XPIC and FMPM: share of the filter mixed in per second [1/s], every filterInterval steps; else FLIP. None: in full,
-    /// every step.
+    /// XPIC and FMPM: share of the filter mixed in per second [1/s], every filterInterval steps; else FLIP. None: in
+    /// full, every step.
     std::optional<double> filterRate;
     Index filterInterval = 1;
     treatment::StressTreatment treatment; ///< of erratic stresses

@@ -102,7 +102,8 @@ void ExplicitStepper<dim, Shape>::relaxStress(Workspace& ws, Index first, int co
         double square = 0;
         for (int k = 0; k < stressSize<dim>; ++k)
             square += (k < 3 ? 1 : 2) * strain[k][l] * strain[k][l];
-        share[l] = treatment::relaxedShare(*scene_.treatment.relaxation, relaxationRate_, flow[l] * std::sqrt(square) / dt, dt);
+        share[l] = treatment::relaxedShare(*scene_.treatment.relaxation, relaxationRate_,
+                                           flow[l] * std::sqrt(square) / dt, dt);
     }
     if (anyHyperelastic_)
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {

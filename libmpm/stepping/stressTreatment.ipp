@@ -1,5 +1,5 @@
-// What the remedies for erratic stresses share: treatment/{volumetricAveraging,stressRelaxation,tensionGap}.hpp have the
-// equations. Absent, they cost nothing.
+// What the remedies for erratic stresses share: treatment/{volumetricAveraging,stressRelaxation,tensionGap}.hpp have
+// the equations. Absent, they cost nothing.
 #pragma once
 #include "stepping/stressRelaxation.ipp"
 #include "stepping/timeStep.hpp"

@@ -10,7 +10,8 @@
 //     transfer   XPIC;      // mpmSchemes; or FMPM
 //     order      2;         // k >= 1
 //     filterRate 5;         // [1/s] absent: in full every step. v_p of FLIP, <- (1 - a) v_p + a v_p(filtered),
-//     filterInterval 10;    // a = 1 - exp(-rate n dt) every n steps: as strong whatever the step is; particles move with v*
+//     filterInterval 10;    // a = 1 - exp(-rate n dt) every n steps: as strong whatever the step is; particles move
+//     with v*
 //
 // Cost: k - 1 rounds of a gather and a projection a step. Verified in tests/unit/transferSchemes.cpp.
 #pragma once
@@ -68,8 +69,8 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
                 out[i][1 + dim + a] += back * row.node[i][1 + dim + a];
                 out[i][1 + a] = row.node[i][1 + a]; // v*, which says what the walls hold
             }
-        // What walls take from the filtered velocity is an impulse too, of the share that is mixed in: sum m_p v_p = sum
-        // m_i times what is left here.
+        // What walls take from the filtered velocity is an impulse too, of the share that is mixed in: sum m_p v_p =
+        // sum m_i times what is left here.
         const auto book = [&](double sign) {
             sign *= share;
             for (Index i = row.begin; i < row.end; ++i)

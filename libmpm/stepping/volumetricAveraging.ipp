@@ -125,8 +125,8 @@ void ExplicitStepper<dim, Shape>::takeAverage(Workspace& ws, const state::Tile& 
             ws.L[a * dim + a][l] += ws.spread[l];
 }
 
-/// work, sigma : e of the forces, becomes that of the strain after the average; half of the difference is lost at either
-/// end of the step.
+/// work, sigma : e of the forces, becomes that of the strain after the average; half of the difference is lost at
+/// either end of the step.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes],
                                                 double (&work)[lanes])

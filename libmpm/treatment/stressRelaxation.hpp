@@ -5,16 +5,16 @@
 /// `filtered` or `leastSquares` (smoothing/stressTargets.hpp). Over n steps sigma_p += (1 - exp(-r n dt)) (T sigma -
 /// sigma)_p: the rate is per second, whatever the step.
 ///
-/// It acts on the stress a step starts from, in front of the law, so the stress a step leaves is admissible. The elastic
-/// energy it takes is booked as relaxationLoss.
+/// It acts on the stress a step starts from, in front of the law, so the stress a step leaves is admissible. The
+/// elastic energy it takes is booked as relaxationLoss.
 ///
-/// Waves: S takes (kh)^2 of a wave of wave number k, the other two (kh)^4. What is at rest: smooth stress need not be in
-/// equilibrium where the body ends, so a rate for ever is a creep for ever. And what varies within a cell is not all noise:
-/// strains of hat functions are a staircase, so relaxation takes (kh)^2/48 of a wave's strain energy again and again. But
-/// noise is made by flow:
+/// Waves: S takes (kh)^2 of a wave of wave number k, the other two (kh)^4. What is at rest: smooth stress need not be
+/// in equilibrium where the body ends, so a rate for ever is a creep for ever. And what varies within a cell is not all
+/// noise: strains of hat functions are a staircase, so relaxation takes (kh)^2/48 of a wave's strain energy again and
+/// again. But noise is made by flow:
 ///     r = min(rate, perStrain |D_p| a_p),   a_p <- 1 where the law yields, else a_p exp(-dt/memory),
-/// |D| the norm of the strain rate. Material that has not flowed is left alone, bit by bit, and so are its waves; what has
-/// flowed is relaxed while it still moves.
+/// |D| the norm of the strain rate. Material that has not flowed is left alone, bit by bit, and so are its waves; what
+/// has flowed is relaxed while it still moves.
 ///
 ///     stressRelaxation             // in stressTreatment of system/mpmSchemes; absent: none
 ///     {
@@ -26,8 +26,8 @@
 ///     }
 ///
 /// Laws whose stress is a function of F (hyperelastic) are left alone.
-/// Cost: a step with it takes two rounds over particles and nodes more (smoothed one, leastSquares a slow one) divided by
-/// the interval. Verified in tests/unit/stressRelaxation.cpp.
+/// Cost: a step with it takes two rounds over particles and nodes more (smoothed one, leastSquares a slow one) divided
+/// by the interval. Verified in tests/unit/stressRelaxation.cpp.
 #include "base/types.hpp"
 #include "smoothing/stressTargets.hpp"
 

@@ -8,9 +8,9 @@ namespace
 {
 std::string describe(const VolumetricAveraging& a)
 {
-    std::string text = a.region == AveragingRegion::cell ? "volume change averaged over cells"
-                                                         : fmt::format("volume change averaged over patches x {}",
-                                                                       a.repeats);
+    std::string text = a.region == AveragingRegion::cell
+                           ? "volume change averaged over cells"
+                           : fmt::format("volume change averaged over patches x {}", a.repeats);
     if (a.of == AveragedPart::elastic)
         text += " (elastic part)";
     if (a.viscosity > 0)
@@ -20,7 +20,8 @@ std::string describe(const VolumetricAveraging& a)
 
 std::string describe(const StressRelaxation& r)
 {
-    return fmt::format("stress relaxed to {} at {}{} every {} steps", smoothing::stressTargetNames()[std::size_t(r.target)],
+    return fmt::format("stress relaxed to {} at {}{} every {} steps",
+                       smoothing::stressTargetNames()[std::size_t(r.target)],
                        r.rate ? fmt::format("{:g} 1/s", *r.rate) : "0.6 c_p/h",
                        r.perStrain > 0 ? fmt::format(", at most {:g} |D|,", r.perStrain) : "", r.interval);
 }
@@ -48,9 +49,9 @@ std::string describe(const StressTreatment& t)
     return text.empty() ? "none" : text;
 }
 
-/// Averaging cures locking, which laws suffer from when they flow or are nearly incompressible; relaxation what is left of
-/// noise, which flow makes. A law that dilates keeps its plastic volume where it is made. The gap is for laws that drop
-/// volume. Elastic bodies make no noise: where nu > 0.4 averages over cells, conjugate, which add no energy to
+/// Averaging cures locking, which laws suffer from when they flow or are nearly incompressible; relaxation what is left
+/// of noise, which flow makes. A law that dilates keeps its plastic volume where it is made. The gap is for laws that
+/// drop volume. Elastic bodies make no noise: where nu > 0.4 averages over cells, conjugate, which add no energy to
 /// what moves for long; else nothing.
 StressTreatment automatic(const std::vector<constitutive::Material>& materials)
 {
@@ -87,7 +88,8 @@ std::optional<Objection> objection(const StressTreatment& t, const std::vector<c
         return Objection{"volumetricAveraging", "of elastic with conjugate yes: forces cannot know the plastic part",
                          "one of them"};
     if (t.relaxation && !firstWith(materials, [](const Law& law) { return !law.hyperelastic(); }))
-        return Objection{"stressRelaxation", "only laws whose stress is a function of F, which no relaxation can change",
+        return Objection{"stressRelaxation",
+                         "only laws whose stress is a function of F, which no relaxation can change",
                          "it with laws that carry stress on"};
     if (t.tensionGap && !firstWith(materials, [](const Law& law) { return law.dropsApexVolume(); }))
         return Objection{"tensionGap", "yes without a law that drops volume at an apex",

@@ -23,8 +23,8 @@ namespace mpm::treatment
 /// What tensionGap keeps of a chunk while the law runs.
 struct OpenGap
 {
-    alignas(64) double gap[lanes]; ///< in: g; out: g after the law
-    alignas(64) double work[lanes];      ///< out: p_mid (g' - g) [J/m^3]
+    alignas(64) double gap[lanes];  ///< in: g; out: g after the law
+    alignas(64) double work[lanes]; ///< out: p_mid (g' - g) [J/m^3]
     alignas(64) double diagonal[3][lanes], pressure[lanes];
 };
 

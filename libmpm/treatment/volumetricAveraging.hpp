@@ -9,27 +9,28 @@
 ///                                 q_n = sum V_c q_c / sum V_c over the cells at a node, (H q)_c = 2^-d sum q_n over
 ///                                 the nodes of a cell. Inside that is a hat over 3^d cells, prod over axes (1 2 1)/4
 /// With weights V, A is self-adjoint, 0 <= A <= I, also where the material ends: constants and sum V q are kept. (Hats
-/// normalised cell by cell are not self-adjoint at surfaces, where an elastic block then flutters; a box of 3^d cells has
-/// negative eigenvalues.)
+/// normalised cell by cell are not self-adjoint at surfaces, where an elastic block then flutters; a box of 3^d cells
+/// has negative eigenvalues.)
 ///
 /// of total: q = tr D. of elastic: q = tr D - tr D^p with the plastic part of the last step, which stays where it was
 /// made: only what makes pressure is averaged. A flow rule that dilates (psi > 0) makes volume in a shear band; spread
 /// over neighbours, the band would be held shut by a pressure that pushes ever harder (energy from nowhere). So a law
 /// that dilates needs `of elastic` or `conjugate yes`.
 ///
-/// conjugate no: forces keep the particles' stress. Pressures p = K A theta are smooth then, and A is self-adjoint, so the
-/// stiffness B^T V K A B is that of an elastic body whose energy is 1/2 theta : K A : theta. What plastic flow, and cells
-/// that particles change, make of the difference between sigma : D and sigma : D_averaged is booked as averagingLoss.
-/// Pressures made with the cells of long ago are no longer in the range of A: without a stressRelaxation, which brings them
-/// back, energy can grow over thousands of steps.
+/// conjugate no: forces keep the particles' stress. Pressures p = K A theta are smooth then, and A is self-adjoint, so
+/// the stiffness B^T V K A B is that of an elastic body whose energy is 1/2 theta : K A : theta. What plastic flow, and
+/// cells that particles change, make of the difference between sigma : D and sigma : D_averaged is booked as
+/// averagingLoss. Pressures made with the cells of long ago are no longer in the range of A: without a
+/// stressRelaxation, which brings them back, energy can grow over thousands of steps.
+///
 /// conjugate yes: forces take sigma + (A s - s) I, s the mean of the d normal stresses: they do exactly the work the
 /// strains say, averagingLoss is 0. The price is noise: stresses that equilibrium asks of A s need not be smooth.
 ///
-/// viscosity: volume change that the average leaves out has no stiffness; it would linger in the velocities and feed the
-/// noise of stresses. A pressure -eta (tr D - theta) in the forces, eta = viscosity rho h c_p, takes that motion away and
-/// leaves alone what the average sees (the hourglass viscosity of Flanagan & Belytschko 1981, doi
-/// 10.1002/nme.1620170504, for the modes of an average). Booked as viscosityLoss. Beside a stressRelaxation that follows
-/// flow, eta is multiplied by the same memory a_p of it (stressRelaxation.hpp): elastic waves stay.
+/// viscosity: volume change that the average leaves out has no stiffness; it would linger in the velocities and feed
+/// the noise of stresses. A pressure -eta (tr D - theta) in the forces, eta = viscosity rho h c_p, takes that motion
+/// away and leaves alone what the average sees (the hourglass viscosity of Flanagan & Belytschko 1981, doi
+/// 10.1002/nme.1620170504, for the modes of an average). Booked as viscosityLoss. Beside a stressRelaxation that
+/// follows flow, eta is multiplied by the same memory a_p of it (stressRelaxation.hpp): elastic waves stay.
 ///
 /// Sources: mean dilatation of Nagtegaal, Parks & Rice 1974 (doi 10.1016/0045-7825(74)90032-2) and Hughes 1980 (doi
 /// 10.1002/nme.1620150914); cell averages in MPM: Mast, Mackenzie-Helnwein, Arduino, Miller & Shin 2012 (doi

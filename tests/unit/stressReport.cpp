@@ -116,8 +116,8 @@ TEST_CASE("energy of remedies over the energy released")
     std::set<std::string> there;
     output::forEachLedgerEntry(ledger, [&](const char* name, auto& value, const char*) {
         if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-            if (const std::string word = name; word == "relaxationLoss" || word == "averagingLoss" ||
-                                                  word == "viscosityLoss" || word == "gapWork")
+            if (const std::string word = name;
+                word == "relaxationLoss" || word == "averagingLoss" || word == "viscosityLoss" || word == "gapWork")
             {
                 value = word == "gapWork" ? -4 : 8;
                 there.insert(word);
