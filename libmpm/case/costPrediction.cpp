@@ -127,10 +127,8 @@ void enableOptional(const Particles& from, Particles& to)
     if constexpr (requires { from.hasAffine(); })
         if (from.hasAffine())
             to.enableAffine();
-    to.keepTensionGap(from.hasTensionGap());
-    to.keepDilationRate(from.hasDilationRate());
-    to.keepFlowMemory(from.hasFlowMemory());
-    to.keepViscousStress(from.hasViscousStress());
+    for (const auto& optional : Particles::optionalColumns())
+        to.keep(optional.column, from.has(optional.column));
 }
 } // namespace
 

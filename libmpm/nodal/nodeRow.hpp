@@ -58,6 +58,7 @@ struct NodeRow
     Index j = 0, k = 0;       ///< lattice indices of the row
     Record* node = nullptr;   ///< node[i], begin <= i < end
     double dt = 0;
+    double time = 0;         ///< at the start of the step [s]
     double smallestMass = 0; ///< nodes lighter than this carry nothing
     NodeSums* sums = nullptr;
     /// What walls did at each node of the row, all empty while none touched it.

@@ -148,10 +148,8 @@ class Checker
         finite(p_.F, dim * dim);
         finite(p_.X, p_.hasX() ? dim : 0);
         finite(p_.affine, p_.hasAffine() ? dim * dim : 0);
-        for (const auto* column : {&p_.tensionGap, &p_.dilationRate, &p_.flowMemory, &p_.viscousStress})
-            if (!column->empty())
-                for (Index l = 0; l < n; ++l)
-                    bad |= !std::isfinite((*column)[std::size_t(first + l)]);
+        for (const auto& optional : state::Particles::optionalColumns())
+            finite(&(p_.*optional.column), p_.has(optional.column));
         for (int k = 0; k < dim; ++k)
             positive(p_.length0[std::size_t(k)]);
         positive(p_.mass);
@@ -180,10 +178,8 @@ class Checker
             finiteAll("deformationGradient", p_.F, p_.dim * p_.dim, i);
             finiteAll("referencePosition", p_.X, p_.hasX() ? p_.dim : 0, i);
             finiteAll("affine", p_.affine, p_.hasAffine() ? p_.dim * p_.dim : 0, i);
-            finiteAll("tensionGap", &p_.tensionGap, p_.hasTensionGap(), i);
-            finiteAll("dilationRate", &p_.dilationRate, p_.hasDilationRate(), i);
-            finiteAll("flowMemory", &p_.flowMemory, p_.hasFlowMemory(), i);
-            finiteAll("viscousStress", &p_.viscousStress, p_.hasViscousStress(), i);
+            for (const auto& optional : state::Particles::optionalColumns())
+                finiteAll(optional.name, &(p_.*optional.column), p_.has(optional.column), i);
             for (int k = 0; k < p_.dim; ++k)
                 positive("length0", p_.length0[std::size_t(k)][i], i);
             positive("mass", p_.mass[i], i);

@@ -4,7 +4,6 @@
 #include "output/hdf5File.hpp"
 #include "output/hdf5Probe.hpp"
 #include "output/ledgerEntries.hpp"
-#include "output/optionalColumns.hpp"
 #include "output/replaceFile.hpp"
 #include "output/visualisation.hpp"
 #include "state/particleOrder.hpp"
@@ -141,9 +140,9 @@ void writeParticles(Hdf5File& file, const state::Particles& p)
         file.writeRows<double>("/particles/referencePosition", {n, dim}, "m", interleaved(p.X, dim));
     if (p.hasAffine())
         file.writeRows<double>("/particles/affine", {n, dim, dim}, "1/s", interleaved(p.affine, dim * dim));
-    for (const auto& optional : optionalColumns(p))
-        if (optional.has)
-            plain(optional.name, optional.column, optional.unit);
+    for (const auto& optional : state::Particles::optionalColumns())
+        if (p.has(optional.column))
+            plain(optional.name, p.*optional.column, optional.unit);
 }
 
 void readParticles(const Hdf5File& file, state::Particles& p)
@@ -184,11 +183,11 @@ void readParticles(const Hdf5File& file, state::Particles& p)
         p.enableAffine();
         file.readRows<double>("/particles/affine", {n, dim, dim}, dealTo(p.affine, dim * dim));
     }
-    for (const auto& optional : optionalColumns(p))
-        if (file.exists("/particles/" + optional.name))
+    for (const auto& optional : state::Particles::optionalColumns())
+        if (file.exists(std::string("/particles/") + optional.name))
         {
-            (p.*optional.keep)(true);
-            plain(optional.name, optional.column);
+            p.keep(optional.column, true);
+            plain(optional.name, p.*optional.column);
         }
     p.padLastChunk();
 }

@@ -51,36 +51,40 @@ void Particles::disableAffine()
         column = {};
 }
 
+const std::array<OptionalColumn, Particles::optionals>& Particles::optionalColumns()
+{
+    static constexpr std::array<OptionalColumn, optionals> columns{{
+        {&Particles::tensionGap, "tensionGap", "1"},
+        {&Particles::dilationRate, "dilationRate", "1/s"},
+        {&Particles::flowMemory, "flowMemory", "1"},
+        {&Particles::viscousStress, "viscousStress", "Pa"},
+    }};
+    return columns;
+}
+
 namespace
 {
-void keepColumn(bool keep, std::size_t size, bool& has, Column<double>& column)
+std::size_t placeOf(Column<double> Particles::*column)
 {
-    if (keep && !has)
-        column.assign(size, 0.0);
-    if (!keep)
-        column = {};
-    has = keep;
+    const auto& all = Particles::optionalColumns();
+    return std::size_t(std::find_if(all.begin(), all.end(), [&](const auto& o) { return o.column == column; }) -
+                       all.begin());
 }
 } // namespace
 
-void Particles::keepTensionGap(bool keep)
+bool Particles::has(Column<double> Particles::*column) const
 {
-    keepColumn(keep, mass.size(), hasTensionGap_, tensionGap);
+    return has_[placeOf(column)];
 }
 
-void Particles::keepDilationRate(bool keep)
+void Particles::keep(Column<double> Particles::*column, bool keep)
 {
-    keepColumn(keep, mass.size(), hasDilationRate_, dilationRate);
-}
-
-void Particles::keepFlowMemory(bool keep)
-{
-    keepColumn(keep, mass.size(), hasFlowMemory_, flowMemory);
-}
-
-void Particles::keepViscousStress(bool keep)
-{
-    keepColumn(keep, mass.size(), hasViscousStress_, viscousStress);
+    bool& has = has_[placeOf(column)];
+    if (keep && !has)
+        (this->*column).assign(mass.size(), 0.0);
+    if (!keep)
+        this->*column = {};
+    has = keep;
 }
 
 void Particles::padLastChunk()

@@ -6,6 +6,8 @@
 #include "base/alignedVector.hpp"
 #include "base/types.hpp"
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,16 @@ namespace mpm::state
 {
 template <class T>
 using Column = AlignedVector<T>;
+
+struct Particles;
+
+/// A column of one number a particle that only some scenes need (Particles::optionalColumns).
+struct OptionalColumn
+{
+    Column<double> Particles::*column;
+    const char* name; ///< in state.h5: /particles/<name>
+    const char* unit;
+};
 
 /// What velocity, stress, deformation gradient and initial lengths are stored as: the CMake option MPM_STORAGE, double
 /// or float. Floats halve what a pass reads and writes of them. All arithmetic is in doubles; positions, masses and
@@ -56,23 +68,23 @@ struct Particles
     Column<double> flowMemory;    ///< 1 where the law yields, fading (treatment/stressRelaxation.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
 
+    /// All of these, in the order of files. A new one is a member above and a line in particles.cpp: memory, files,
+    /// sorting, splitting and predictions of cost follow this list.
+    static constexpr std::size_t optionals = 4;
+    static const std::array<OptionalColumn, optionals>& optionalColumns();
+    /// Is the column in use?
+    bool has(Column<double> Particles::*column) const;
+    /// Adds the column, zero, or takes it away; does nothing where that is so already.
+    void keep(Column<double> Particles::*column, bool keep);
+
     bool hasX() const { return hasX_; }
     bool hasAffine() const { return hasAffine_; }
-    bool hasTensionGap() const { return hasTensionGap_; }
-    bool hasDilationRate() const { return hasDilationRate_; }
-    bool hasFlowMemory() const { return hasFlowMemory_; }
-    bool hasViscousStress() const { return hasViscousStress_; }
     /// Adds the columns of X: the positions as they are.
     void enableX();
     /// Adds the columns of the affine part: zero.
     void enableAffine();
     /// Takes them away again.
     void disableAffine();
-    /// Adds the column, zero, or takes it away; does nothing where that is so already.
-    void keepTensionGap(bool keep);
-    void keepDilationRate(bool keep);
-    void keepFlowMemory(bool keep);
-    void keepViscousStress(bool keep);
 
     Index size() const { return size_; }
     Index chunks() const { return (size_ + lanes - 1) / lanes; }
@@ -110,19 +122,14 @@ struct Particles
             visit(X[k]);
         for (int k = 0; k < dim * dim && hasAffine_; ++k)
             visit(affine[k]);
-        if (hasTensionGap_)
-            visit(tensionGap);
-        if (hasDilationRate_)
-            visit(dilationRate);
-        if (hasFlowMemory_)
-            visit(flowMemory);
-        if (hasViscousStress_)
-            visit(viscousStress);
+        for (std::size_t k = 0; k < optionals; ++k)
+            if (has_[k])
+                visit(this->*optionalColumns()[k].column);
     }
 
   private:
-    bool hasX_ = false, hasAffine_ = false, hasTensionGap_ = false, hasDilationRate_ = false, hasFlowMemory_ = false,
-         hasViscousStress_ = false;
+    bool hasX_ = false, hasAffine_ = false;
+    std::array<bool, optionals> has_{};
     Index size_ = 0;
 };
 } // namespace mpm::state

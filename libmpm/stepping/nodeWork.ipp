@@ -23,6 +23,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
             const state::Block& block = blocks[std::size_t(b)];
             const auto& box = block.box;
             nodal::NodeRow<dim> row;
+            row.time = state_.time;
             row.smallestMass = smallestMass_;
             row.sums = &blockSums_[std::size_t(b)];
             row.walls = &walls;

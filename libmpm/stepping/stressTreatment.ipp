@@ -13,10 +13,10 @@ namespace mpm::stepping
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::prepareTreatment()
 {
-    state_.particles.keepTensionGap(scene_.treatment.tensionGap);
-    state_.particles.keepDilationRate(scene_.treatment.averagesElasticPart());
-    state_.particles.keepFlowMemory(scene_.treatment.followsFlow());
-    state_.particles.keepViscousStress(viscous());
+    state_.particles.keep(&state::Particles::tensionGap, scene_.treatment.tensionGap);
+    state_.particles.keep(&state::Particles::dilationRate, scene_.treatment.averagesElasticPart());
+    state_.particles.keep(&state::Particles::flowMemory, scene_.treatment.followsFlow());
+    state_.particles.keep(&state::Particles::viscousStress, viscous());
     for (const auto& material : scene_.materials)
         if (viscous())
             viscosities_.push_back(scene_.treatment.averaging->viscosity * material.density * state_.grid.h *

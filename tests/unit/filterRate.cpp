@@ -134,14 +134,14 @@ TEST_CASE("treatments that are off leave no trace: the same bits, no columns")
                 auto s = block(dim);
                 stir(s, 1);
                 auto other = s;
-                other.particles.keepTensionGap(true); // left by another run
-                other.particles.keepDilationRate(true);
+                other.particles.keep(&state::Particles::tensionGap, true); // left by another run
+                other.particles.keep(&state::Particles::dilationRate, true);
                 const auto a = run(s, shape, without, 10, 4e-3),
                            b = run(other, shape, scene(material, {}, update), 10, 4e-3);
                 CHECK(sameBits(a.particles, b.particles));
-                CHECK_FALSE(b.particles.hasTensionGap());
-                CHECK_FALSE(b.particles.hasDilationRate());
-                CHECK_FALSE(b.particles.hasViscousStress());
+                CHECK_FALSE(b.particles.has(&state::Particles::tensionGap));
+                CHECK_FALSE(b.particles.has(&state::Particles::dilationRate));
+                CHECK_FALSE(b.particles.has(&state::Particles::viscousStress));
                 for (const double entry : {b.ledger.relaxationLoss, b.ledger.averagingLoss, b.ledger.gapWork})
                     CHECK(entry == 0);
             }

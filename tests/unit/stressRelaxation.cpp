@@ -181,7 +181,7 @@ TEST_CASE("perStrain: what rests is left alone, what is strained relaxes in prop
             scenes::seedBlock({.corner = {2, 2, 0}, .n = {32, 32, 1}, .spacing = 0.5, .h = 1, .cells = {20, 20, 1}});
         auto& p = s.particles;
         hold(s);
-        p.keepFlowMemory(true); // it has yielded, this very moment
+        p.keep(&state::Particles::flowMemory, true); // it has yielded, this very moment
         std::fill(p.flowMemory.begin(), p.flowMemory.end(), 1.0);
         for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
         {

@@ -222,7 +222,7 @@ TEST_CASE("children of a split are as open as their parent")
     {
         auto s = block(dim);
         auto& p = s.particles;
-        p.keepTensionGap(true);
+        p.keep(&state::Particles::tensionGap, true);
         for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
         {
             p.tensionGap[i] = 1e-3 * double(i);
@@ -251,13 +251,13 @@ TEST_CASE("columns of a treatment come back from a file, are absent without it, 
         auto s = block(dim);
         output::writeState(folder / "0", s);
         const auto plain = output::readState(folder / "0/state.h5");
-        CHECK_FALSE(plain.particles.hasTensionGap());
-        CHECK_FALSE(plain.particles.hasDilationRate());
-        CHECK_FALSE(plain.particles.hasViscousStress());
+        CHECK_FALSE(plain.particles.has(&state::Particles::tensionGap));
+        CHECK_FALSE(plain.particles.has(&state::Particles::dilationRate));
+        CHECK_FALSE(plain.particles.has(&state::Particles::viscousStress));
         auto& p = s.particles;
-        p.keepTensionGap(true);
-        p.keepDilationRate(true);
-        p.keepViscousStress(true);
+        p.keep(&state::Particles::tensionGap, true);
+        p.keep(&state::Particles::dilationRate, true);
+        p.keep(&state::Particles::viscousStress, true);
         for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
         {
             p.tensionGap[i] = 1e-3 / double(i + 1);
@@ -267,14 +267,14 @@ TEST_CASE("columns of a treatment come back from a file, are absent without it, 
         p.padLastChunk();
         output::writeState(folder / "1", s);
         auto back = output::readState(folder / "1/state.h5");
-        REQUIRE(back.particles.hasTensionGap());
-        REQUIRE(back.particles.hasDilationRate());
+        REQUIRE(back.particles.has(&state::Particles::tensionGap));
+        REQUIRE(back.particles.has(&state::Particles::dilationRate));
         CHECK(back.particles.tensionGap == p.tensionGap);
         CHECK(back.particles.dilationRate == p.dilationRate);
         CHECK(back.particles.viscousStress == p.viscousStress);
         const auto left = run(back, "uGIMP", scene(scenes::elastic(1e6, 0.3), {}), 1, 1e-3);
-        CHECK_FALSE(left.particles.hasTensionGap());
-        CHECK_FALSE(left.particles.hasDilationRate());
-        CHECK_FALSE(left.particles.hasViscousStress());
+        CHECK_FALSE(left.particles.has(&state::Particles::tensionGap));
+        CHECK_FALSE(left.particles.has(&state::Particles::dilationRate));
+        CHECK_FALSE(left.particles.has(&state::Particles::viscousStress));
     }
 }
