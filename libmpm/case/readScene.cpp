@@ -348,6 +348,9 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
     const Dictionary& schemes = open("system/mpmSchemes");
     out.shape = readSchemes(schemes, out.scene);
     out.scene.treatment = readStressTreatment(schemes, out.scene);
+    if (out.scene.rest && out.scene.treatment.any())
+        schemes.fail("rest", "it with a stressTreatment",
+                     "one of the two: treatments take averages over what may sleep");
     if (out.scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
         if (const auto why = whyNotSmooth(out.shape, out.scene); !why.empty())
             schemes.fail("timeIntegration", schemes.get<std::string>({"timeIntegration", "time integration"}),

@@ -76,6 +76,21 @@ void readTransfer(const Dictionary& d, stepping::Scene& scene)
         d.fail("filterInterval", "it without filterRate",
                "it with filterRate: without, every step is filtered in full");
 }
+
+stepping::Rest readRest(const Dictionary& all, const Dictionary& d, const stepping::Scene& scene)
+{
+    stepping::Rest rest;
+    rest.tolerance = d.get<double>(
+        {"tolerance", "strain of waves that may be ignored", unit::none, {0, 1e-2, true, false}, rest.tolerance});
+    rest.looks = d.get<Index>(
+        {"looks", "looks in a row at which a tile has to be quiet", unit::none, Bound::atLeast(1), rest.looks});
+    if (scene.transfer != stepping::Transfer::FLIP ||
+        scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
+        all.fail("rest", "it with " + stepping::methodText(scene), "it with FLIP and symplecticEuler only");
+    if (scene.bodyForce)
+        all.fail("rest", "it beside constant/bodyForce", "one of the two: a force by formulas may disturb what sleeps");
+    return rest;
+}
 } // namespace
 
 std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
@@ -122,6 +137,8 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
         scene.relaxationTime = damping->get<double>(
             {"relaxationTime", "time in which free momentum falls to 1/e", unit::time, Bound::positive()});
     }
+    if (const Dictionary* rest = d.findDict("rest", "soil at rest sleeps"))
+        scene.rest = readRest(d, *rest, scene);
     if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
         scene.splitting = readSplitting(*splitting);
     return shape;

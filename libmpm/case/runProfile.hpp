@@ -38,7 +38,8 @@ class RunProfile
     void beginSteps(const stepping::PassTimes& passes);
     /// A step of so many particles is done.
     void countStep(Index particles) { particleSteps_ += double(particles); }
-    double elapsed() const; ///< since the profile was made [s]
+    double particleSteps() const { return particleSteps_; } ///< steps of particles counted so far
+    double elapsed() const;                                 ///< since the profile was made [s]
     /// Processor time of all threads since beginSteps(), without apartProcessor [s].
     double processor() const;
     double nsPerParticleStep(double seconds) const { return particleSteps_ > 0 ? 1e9 * seconds / particleSteps_ : 0; }

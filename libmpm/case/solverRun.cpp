@@ -65,6 +65,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     peakTime_ = firstTime_ = state_.time;
     peakKinetic_ = state_.ledger.kineticEnergy;
     firstStep_ = writtenStep_ = limitStep_ = state_.step;
+    firstRestingSteps_ = state_.ledger.restingSteps;
 }
 
 SolverRun::~SolverRun() = default;

@@ -105,7 +105,7 @@ class SolverRun
     double firstTime_ = 0, timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double stepSeconds_ = 0;
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
-    Index firstStep_ = 0, writtenStep_ = 0;
+    Index firstStep_ = 0, writtenStep_ = 0, firstRestingSteps_ = 0;
     Index limitStep_ = 0; ///< the step limit_ was made anew at
 };
 } // namespace mpm::cases

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace mpm::cases
 {
@@ -61,6 +62,15 @@ std::vector<std::string> periodicAxes(const state::GridBox& grid)
     return axes;
 }
 
+/// Smallest wave modulus rho c_p^2 [Pa].
+double softest(const std::vector<constitutive::Material>& materials)
+{
+    double modulus = std::numeric_limits<double>::infinity();
+    for (const auto& m : materials)
+        modulus = std::min(modulus, m.density * m.waveSpeed() * m.waveSpeed());
+    return modulus;
+}
+
 void line(const std::string& what, const std::string& text)
 {
     fmt::print("  {:<14} {}\n", what, text);
@@ -105,6 +115,9 @@ void SolverRun::banner() const
         line("splitting", fmt::format("{} at {:g} seeding spacings, every {} steps",
                                       s.splitting->mode == splitting::Mode::fourWay ? "fourWay" : "stretched",
                                       s.splitting->threshold, s.splitting->interval));
+    if (s.rest)
+        line("rest", fmt::format("waves below a strain of {:g} ({:g} Pa) may be ignored, a look every {} steps",
+                                 s.rest->tolerance, s.rest->tolerance * softest(s.materials), s.sortInterval));
     if (done())
         line("time", fmt::format("{:g} s; endTime {:g} s is reached, there is nothing to do", state_.time,
                                  runTime_->endTime()));
@@ -155,6 +168,8 @@ void SolverRun::warnings() const
         line("note", fmt::format("friction: 0 contacts in {} steps", steps));
     if (scene.splitting && ledger.splits == 0)
         line("note", fmt::format("splitting: 0 particles split in {} steps", steps));
+    if (scene.rest && ledger.restingSteps == firstRestingSteps_)
+        line("note", fmt::format("rest: nothing slept in {} steps", steps));
 }
 
 void SolverRun::summary()
@@ -208,6 +223,10 @@ void SolverRun::summary()
         add(treatment.tensionGap, "open gaps hold", l.gapWork);
         line("stresses", text);
     }
+    if (scene_.scene.rest && steps > 0)
+        line("rest", fmt::format("{:.1f} % of the particles' steps slept through, {} tiles woken, {:.3g} {} taken",
+                                 100 * double(l.restingSteps - firstRestingSteps_) / profile_.particleSteps(), l.wakes,
+                                 l.restLoss / 1e3, unit));
     line("residual",
          fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
                      supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));

@@ -27,6 +27,7 @@ struct NodeSums
     Index contacts = 0;                                        ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
+    Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]
 
     NodeSums& operator+=(const NodeSums& o)
     {
@@ -46,6 +47,7 @@ struct NodeSums
             gravityImpulse[a] += o.gravityImpulse[a];
             wallImpulse[a] += o.wallImpulse[a];
             dampingImpulse[a] += o.dampingImpulse[a];
+            restImpulse[a] += o.restImpulse[a];
         }
         return *this;
     }

@@ -24,6 +24,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("averagingLoss", ledger.averagingLoss, "J");
     visit("viscosityLoss", ledger.viscosityLoss, "J");
     visit("gapWork", ledger.gapWork, "J");
+    visit("restLoss", ledger.restLoss, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
@@ -35,15 +36,18 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("gravityImpulse", ledger.gravityImpulse, "N s");
     visit("tractionImpulse", ledger.tractionImpulse, "N s");
     visit("dampingImpulse", ledger.dampingImpulse, "N s");
+    visit("restImpulse", ledger.restImpulse, "N s");
     visit("initialMomentum", ledger.initialMomentum, "N s");
     visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
     visit("apexReturns", ledger.apexReturns, "1");
     visit("splits", ledger.splits, "1");
     visit("splitsPutOff", ledger.splitsPutOff, "1");
     visit("splitsCapped", ledger.splitsCapped, "1");
+    visit("restingSteps", ledger.restingSteps, "1");
+    visit("wakes", ledger.wakes, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 42 * 8,
+    static_assert(sizeof(state::Ledger) == 48 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

@@ -29,6 +29,7 @@ struct Ledger
     double averagingLoss = 0; ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
     double viscosityLoss = 0; ///< taken by its viscosity
     double gapWork = 0;       ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
+    double restLoss = 0;      ///< kinetic energy of particles that fell asleep (stepping/rest.hpp)
     double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2
     double apexVolume = 0;    ///< volume dropped by apex returns beyond the flow rule [m^3]
@@ -40,12 +41,15 @@ struct Ledger
     Vector3 gravityImpulse{};        ///< impulse of gravity [N s]
     Vector3 tractionImpulse{};       ///< impulse of tractions [N s]
     Vector3 dampingImpulse{};        ///< impulse of damping [N s]
+    Vector3 restImpulse{};           ///< momentum that sleeping particles did not take (stepping/rest.hpp)
     Vector3 initialMomentum{};       ///< momentum at the start [N s]
     double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
     Index apexReturns = 0;           ///< particle returns to the apex
     Index splits = 0;                ///< particles split
     Index splitsPutOff = 0;          ///< particles whose split is put off at a wall, at the last look
     Index splitsCapped = 0;          ///< particles whose split the caps on size and count refuse, at the last look
+    Index restingSteps = 0;          ///< steps that particles slept through, summed over particles
+    Index wakes = 0;                 ///< tiles of particles that were woken
     Index wallContacts = 0;          ///< nodes and steps at which a friction wall pressed
 };
 

@@ -96,6 +96,7 @@ struct Tile
     NodeBox window;              ///< nodes they may reach
     std::size_t start = 0;       ///< of the window in the windows' memory, in records
     std::vector<Overlap> blocks; ///< blocks its window overlaps
+    bool resting = false;        ///< its window keeps masses and forces, momenta are none (stepping/rest.hpp)
 };
 
 struct Block
@@ -142,14 +143,18 @@ class TileGrid
     }
     void openLayer() { nodes_[1].resize(nodes_[0].size()); }
 
+    void setResting(Index tile, bool resting) { tiles_[std::size_t(tile)].resting = resting; }
+
     /// Calls add(i0, i1, in) for each window over row (j, k) of the block, in the order of the tiles: in[0] belongs to
-    /// node i0.
+    /// node i0. Windows of momenta (HalfRecord) leave out tiles at rest, which have none.
     template <class R, class Add>
     void forEachWindow(const Block& block, Index j, Index k, Add&& add)
     {
         for (const Overlap& overlap : block.tiles)
         {
             const Tile& tile = tiles_[std::size_t(overlap.tile)];
+            if (sizeof(R) < sizeof(Record) && tile.resting)
+                continue;
             const NodeBox nodes = tile.window.moved(overlap.move);
             const Index i0 = std::max(block.box.lo[0], nodes.lo[0]);
             const Index i1 = std::min(block.box.lo[0] + block.box.n[0], nodes.lo[0] + nodes.n[0]);

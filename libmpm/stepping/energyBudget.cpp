@@ -32,6 +32,16 @@ double strainEnergyOf(const state::Particles& p, std::size_t i, const constituti
 }
 } // namespace
 
+double strainEnergy(const state::State& state, const std::vector<constitutive::Material>& materials, Index first,
+                    Index count)
+{
+    double energy = 0;
+    for (Index i = first; i < first + count; ++i)
+        energy += strainEnergyOf(state.particles, std::size_t(i),
+                                 *materials[std::size_t(state.particles.material[std::size_t(i)])].law);
+    return energy;
+}
+
 Totals totals(const state::State& state, const std::vector<constitutive::Material>& materials)
 {
     const auto& p = state.particles;
@@ -74,7 +84,7 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.gapWork;
+           l.viscosityLoss - l.gapWork - l.restLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -163,6 +173,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "averagingLoss",
                                                      "viscosityLoss",
                                                      "gapWork",
+                                                     "restLoss",
                                                      "residual"};
     return columns;
 }
@@ -188,6 +199,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.averagingLoss,
             l.viscosityLoss,
             l.gapWork,
+            l.restLoss,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

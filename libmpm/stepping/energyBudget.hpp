@@ -14,6 +14,7 @@
 ///     averagingLoss        sum (V s~ + V' S) : (e - e_a)/2 with e_a the strains after volumetric averaging; 0 where it
 ///                          is conjugate: forces then do their work on e_a
 ///     viscosityLoss        sum (V q + V' q') tr e/2, q the viscous normal stress of volumetric averaging in the forces
+///     restLoss             sum m v_p^2/2 of particles that fall asleep (rest.hpp)
 ///     gapWork              sum V p_mid (g' - g) of tension gaps, given back when they close
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
@@ -56,6 +57,9 @@ struct Totals
     Extents extents;
 };
 Totals totals(const state::State& state, const std::vector<constitutive::Material>& materials);
+/// Strain energy of `count` particles from `first` on.
+double strainEnergy(const state::State& state, const std::vector<constitutive::Material>& materials, Index first,
+                    Index count);
 
 /// The mismatch of the budget [J].
 double residual(const state::Ledger& ledger, double strainEnergy);

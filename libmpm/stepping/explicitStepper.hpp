@@ -75,6 +75,7 @@ class ExplicitStepper : public Stepper
         int gradientLane = 1;            ///< node lanes strains are taken from: 1: v*, 1 + dim: w
         bool moves = false;              ///< the new positions take effect
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
+        bool everyone = false;           ///< also those that sleep
     };
 
     bool averages() const { return scene_.treatment.averaging.has_value(); }
@@ -144,8 +145,7 @@ class ExplicitStepper : public Stepper
 
     // passes
     void arrange();
-    void sortAnew();
-    void buildTiles();
+    void buildTiles(bool look = false); ///< look: may tiles fall asleep?
     void project();
     void projectAgain(Project what);
     template <class Node>
@@ -153,6 +153,7 @@ class ExplicitStepper : public Stepper
     template <class What>
     void sumNodes(nodal::NodeRow<dim>& row, const state::Block& block);
     void solveNodes();
+    void solveNodes(const std::vector<Index>& blocks);
     void filterVelocities();
     template <class Change>
     void filterRow(Change&& change);
@@ -162,9 +163,11 @@ class ExplicitStepper : public Stepper
     /// The first projection of a step. USF needs forces only where walls ask for contact before the strains.
     Project firstProjection() const
     {
-        return scene_.stressUpdate == StressUpdate::USF && walls_.empty() ? Project::momentum : Project::forces;
+        return scene_.stressUpdate == StressUpdate::USF && walls_.empty() && !rests() ? Project::momentum
+                                                                                      : Project::forces;
     }
     void particlePass(double dt, const Pass& pass);
+    void sortAnew(bool look);
     void strainPass(double dt, int gradientLane, bool moves);
     void moveSurfaces(double dt);
     void book(const Pass& pass);
@@ -231,9 +234,26 @@ class ExplicitStepper : public Stepper
     void checkInside(Workspace& ws, const Vectors& x) const;
     static void lap(Workspace& ws, double PassTimes::*part);
 
+    // who sleeps, in rest.ipp
+    bool rests() const { return scene_.rest.has_value(); }
+    void prepareRest();
+    void choosePlaces();
+    void lookForRest();
+    void layToRest();
+    double fastestOf(const state::Tile& tile) const;
+    double disturbance(const state::Tile& tile, const std::vector<char>& solved);
+    std::vector<Index> wake(const std::vector<char>& solved);
+    void bookResting(const std::vector<Index>& blocks);
+    void bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha);
+
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
-    void forEachRow(Body&& body);
+    void forEachRow(Body&& body)
+    {
+        forEachRow(reached_, body);
+    }
+    template <class Body>
+    void forEachRow(const std::vector<Index>& blocks, Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
     [[noreturn]] void failOutside() const;
 
@@ -254,7 +274,11 @@ class ExplicitStepper : public Stepper
     std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
     std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
     double relaxationRate_ = 0, flowMemory_ = 0;
-    std::vector<double> viscosities_; ///< eta of each material
+    std::vector<double> viscosities_;                      ///< eta of each material
+    std::vector<Index> awake_;                             ///< tiles whose particles take part in the step, ascending
+    std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
+    double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
+    double restingEnergy_ = 0;                             ///< strain energy of what sleeps
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread

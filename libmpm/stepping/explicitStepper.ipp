@@ -5,6 +5,7 @@
 #include "stepping/chunkWork.ipp"
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
+#include "stepping/rest.ipp"
 #include "stepping/stepReports.ipp"
 #include "stepping/stressTreatment.ipp"
 #include "stepping/velocityFilter.ipp"
@@ -46,6 +47,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     if (!affine() && state.particles.hasAffine()) // the state of a run with another transfer
         state.particles.disableAffine();
     prepareTreatment();
+    prepareRest();
     sortByStoredKeys(state);
 }
 
@@ -117,8 +119,8 @@ void ExplicitStepper<dim, Shape>::arrange()
             arranged_ = false;
         }
     }
-    if (state_.step % scene_.sortInterval == 0 || stray_)
-        sortAnew();
+    if (const bool turn = state_.step % scene_.sortInterval == 0; turn || stray_)
+        sortAnew(turn);
     else if (!arranged_)
     {
         Clock clock(times_.sort);
@@ -127,16 +129,16 @@ void ExplicitStepper<dim, Shape>::arrange()
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::sortAnew()
+void ExplicitStepper<dim, Shape>::sortAnew(bool look)
 {
     Clock clock(times_.sort);
     wrapPositions(state_);
     sortByPosition(state_, layout_, Narrow::nodes);
-    buildTiles();
+    buildTiles(look);
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::buildTiles()
+void ExplicitStepper<dim, Shape>::buildTiles(bool look)
 {
     const auto& p = state_.particles;
     grid_.build(p, layout_, Shape::nodes - Narrow::nodes, Shape::nodes - 1);
@@ -165,6 +167,13 @@ void ExplicitStepper<dim, Shape>::buildTiles()
     }
     arranged_ = true;
     projected_ = false;
+    choosePlaces();
+    if (rests())
+    {
+        if (look)
+            lookForRest();
+        layToRest();
+    }
     if (scene_.treatment.any())
         sizeTreatment();
 }
@@ -178,7 +187,7 @@ void ExplicitStepper<dim, Shape>::project()
         projectAgain(what);
     if (stray_) // particles have moved on since they were sorted
     {
-        sortAnew();
+        sortAnew(false);
         projectAgain(what);
         if (stray_)
             failOutside();
@@ -196,7 +205,7 @@ void ExplicitStepper<dim, Shape>::projectAgain(Project what)
         if (stray_)
             return;
     }
-    particlePass(0, {.then = what});
+    particlePass(0, {.then = what, .everyone = true});
 }
 
 /// Strain and stress, with what is done against erratic stresses; then the next projection, where it can be made yet.
@@ -219,7 +228,8 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
     Clock clock(particleSeconds_);
     const bool timed = state_.step % 16 == 0;
     const auto& tiles = grid_.tiles();
-    const int count = int(tiles.size());
+    const bool all = pass.everyone || awake_.size() == tiles.size();
+    const int count = int(all ? tiles.size() : awake_.size());
     for (auto& ws : workspaces_)
         if (ws)
             ws->times = {};
@@ -230,8 +240,9 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
             ws = std::make_unique<Workspace>();
         ws->timed = timed;
 #pragma omp for schedule(dynamic, 1)
-        for (int t = 0; t < count; ++t)
+        for (int n = 0; n < count; ++n)
         {
+            const Index t = all ? n : awake_[std::size_t(n)];
             ws->sums = {};
             passOverTile(*ws, tiles[std::size_t(t)], dt, pass);
             tileSums_[std::size_t(t)] = ws->sums;
@@ -314,7 +325,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.averagingLoss += total.averagingLoss;
         ledger.viscosityLoss += total.viscosityLoss;
         ledger.gapWork += total.gapWork;
-        report_.strainEnergy = total.strainEnergy;
+        report_.strainEnergy = total.strainEnergy + restingEnergy_;
         state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;
         ledger.apexReturns += total.apexReturns;

@@ -3,29 +3,32 @@
 #include "base/clock.hpp"
 #include "stepping/explicitStepper.hpp"
 
+#include <limits>
+#include <numeric>
+
 namespace mpm::stepping
 {
-/// Calls body(row, block) for all rows of all blocks; sums go to the block's place.
+/// Calls body(row, block) for all rows of the blocks; sums go to the block's place.
 template <int dim, class Shape>
 template <class Body>
-void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
+void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, Body&& body)
 {
-    const auto& blocks = grid_.blocks();
     const int count = int(blocks.size());
-    blockSums_.assign(blocks.size(), {});
+    blockSums_.assign(grid_.blocks().size(), {});
 #pragma omp parallel
     {
         typename nodal::NodeRow<dim>::WallScratch walls;
         std::vector<Record> projected;
 #pragma omp for schedule(dynamic, 1)
-        for (int b = 0; b < count; ++b)
+        for (int n = 0; n < count; ++n)
         {
-            const state::Block& block = blocks[std::size_t(b)];
+            const auto b = std::size_t(blocks[std::size_t(n)]);
+            const state::Block& block = grid_.blocks()[b];
             const auto& box = block.box;
             nodal::NodeRow<dim> row;
             row.time = state_.time;
             row.smallestMass = smallestMass_;
-            row.sums = &blockSums_[std::size_t(b)];
+            row.sums = &blockSums_[b];
             row.walls = &walls;
             row.projected = &projected;
             row.begin = box.lo[0];
@@ -79,14 +82,39 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes()
 {
     Clock clock(times_.nodal);
+    work_.ofForcesBefore = work_.ofForces = 0;
+    report_.lightestNode = std::numeric_limits<double>::infinity();
+    if (report_.resting == 0)
+        return solveNodes(reached_);
+    std::vector<Index> blocks = reached_;
+    if (state_.step % scene_.sortInterval == 0 || !tractions_.empty())
+    {
+        blocks.resize(grid_.blocks().size());
+        std::iota(blocks.begin(), blocks.end(), Index(0));
+    }
+    std::vector<char> solved(grid_.blocks().size());
+    std::vector<Index> all;
+    for (; !blocks.empty(); blocks = wake(solved))
+    {
+        solveNodes(blocks);
+        for (const Index b : blocks)
+            solved[std::size_t(b)] = 1;
+        all.insert(all.end(), blocks.begin(), blocks.end());
+    }
+    bookResting(all);
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
+{
     const bool loaded = !tractions_.empty();
     if (loaded)
     {
-        forEachRow([&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); });
+        forEachRow(blocks, [&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); });
         for (std::size_t k = 0; k < tractions_.size(); ++k)
             tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_, smallestMass_);
     }
-    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         if (!loaded)
             sumNodes<transfer::Forces>(row, block);
         row.dt = kick_;
@@ -102,15 +130,15 @@ void ExplicitStepper<dim, Shape>::solveNodes()
     for (const auto& block : blockSums_)
         sums += block;
     auto& ledger = state_.ledger;
-    work_.ofForcesBefore = -sums.forceWorkBefore;
-    work_.ofForces = -sums.forceWork;
+    work_.ofForcesBefore -= sums.forceWorkBefore;
+    work_.ofForces -= sums.forceWork;
     for (const auto& traction : tractions_)
     {
         const auto [before, after] = traction.book(kick_, ledger.tractionWork, ledger.tractionImpulse);
         work_.ofForcesBefore += before;
         work_.ofForces += after;
     }
-    report_.lightestNode = sums.lightest;
+    report_.lightestNode = std::min(report_.lightestNode, sums.lightest);
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;
@@ -141,7 +169,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             for (Index i = row.begin; i < row.end; ++i)
                 setStrainVelocity(row, i, sum[i - row.begin]);
         }
-        else if (walls_.empty())
+        else if (walls_.empty() && !rests())
         {
             sumNodes<transfer::Momentum>(row, block);
             for (Index i = row.begin; i < row.end; ++i)

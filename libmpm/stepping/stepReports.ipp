@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
 
 namespace mpm::stepping
 {
@@ -23,7 +24,9 @@ double ExplicitStepper<dim, Shape>::smallestNodalMassFraction()
         density = std::max(density, material.density);
     const double full = density * std::pow(state_.grid.h, dim);
     std::vector<double> smallest(grid_.blocks().size(), std::numeric_limits<double>::infinity());
-    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+    std::vector<Index> all(grid_.blocks().size());
+    std::iota(all.begin(), all.end(), Index(0));
+    forEachRow(all, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         if (firstProjection() == Project::momentum)
             sumNodes<transfer::Momentum>(row, block);
         else

@@ -15,6 +15,7 @@
 #include "nodal/boundaries.hpp"
 #include "splitting/splitParticles.hpp"
 #include "state/state.hpp"
+#include "stepping/rest.hpp"
 #include "treatment/stressTreatment.hpp"
 
 #include <memory>
@@ -83,6 +84,7 @@ struct Scene
     std::optional<double> filterRate;
     Index filterInterval = 1;
     treatment::StressTreatment treatment; ///< of erratic stresses
+    std::optional<Rest> rest;             ///< soil at rest sleeps
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
     double picRate = 0;          ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20;     ///< steps between sorts of the particles
@@ -98,6 +100,8 @@ struct StepReport
     double lightestNode = 0;      ///< smallest mass of a node that carries any [kg]
     double maxYieldViolation = 0; ///< max f/max(|sigma|, strength) over particles, 0 if none yields
     Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
+    Index resting = 0;            ///< particles that slept through it
+    double restingStress = 0;     ///< largest stress out of balance that left a tile asleep, |a| rho h of a node [Pa]
 };
 
 /// Seconds spent in the parts of the step since the start.

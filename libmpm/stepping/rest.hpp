@@ -1,0 +1,41 @@
+#pragma once
+/// Resting soil may sleep. A tile of particles (state/tileGrid.hpp: 16 x 16 or 8 x 8 x 8 cells) that has been quiet for
+/// a while takes no part in the step until something disturbs it: its particles stay where they are with the stress
+/// they have, and what they project, mass and internal forces, is kept. Nodes that no tile awake reaches are not
+/// solved.
+///
+///     rest                        // system/mpmSchemes; absent: nothing sleeps
+///     {
+///         tolerance   1e-6;       // eps [-], > 0: strain of the waves that may be ignored
+///         looks       5;          // looks in a row at which a tile has to be quiet, >= 1; default 5
+///     }
+///
+/// A plane wave of strain eps carries the velocity eps c_p and the stress eps M, M = rho c_p^2 (the material with the
+/// slowest wave counts).
+///     falls asleep   at a look, every sortInterval steps, when all its particles were slower than eps c_p/4 at `looks`
+///                    looks in a row; in the first step of a run, when none moves at all
+///     wakes          in the very step in which at a node its particles reach
+///                        |v*| > eps c_p   or   |a| h > eps c_p^2,   a the acceleration of the nodal equation:
+///                    a wave stronger than eps arrives, or a stress of more than eps M is out of balance over a cell.
+///                    Tiles beside a tile that wakes are judged in the same step, with the nodes it brings with it
+///     is judged      at nodes it shares with tiles awake in every step, at all its nodes at every look; in every step
+///                    where loads act, gravity changes or something prescribed moves
+/// So stresses out of balance inside what sleeps stay below eps M, and StepReport::restingStress is the largest one
+/// left alone in the last step. tolerance = 0 would let sleep only what balances to the last bit; it is refused.
+///
+/// What falling asleep takes from velocities, and the share of sleeping particles in the motion of nodes, are booked:
+/// energies as restLoss and (between grid and particles) transferLoss, impulses as restImpulse. Who sleeps follows from
+/// the particle column `quietLooks`, which a restart has. With FLIP; without treatments of stress and prescribed body
+/// forces. Verified in tests/unit/rest.cpp, tests/verification/restingGround.
+#include "base/types.hpp"
+
+namespace mpm::stepping
+{
+struct Rest
+{
+    double tolerance = 1e-6; ///< eps [-]
+    Index looks = 5;
+
+    static constexpr double quietShare = 0.25; ///< of eps c_p: slower is quiet
+};
+} // namespace mpm::stepping
