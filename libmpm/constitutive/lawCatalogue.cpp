@@ -9,7 +9,8 @@ namespace mpm::constitutive
 {
 const char* regionName(Region region)
 {
-    constexpr const char* names[] = {"elastic", "face", "edge s1=s2 (l1)", "edge s2=s3 (l2)", "apex"};
+    constexpr const char* names[] = {"elastic", "face", "edge s1=s2 (l1)", "edge s2=s3 (l2)",
+                                     "apex",    "tension limit"};
     return names[static_cast<Index>(region)];
 }
 
