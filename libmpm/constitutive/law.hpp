@@ -41,7 +41,7 @@ struct Chunk
     alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
     alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
     /// in and out: the history of a law that usesHistory() [-]; else not looked at
-    alignas(64) double plasticStrain[lanes];
+    alignas(64) double plasticStrain[lanes] = {};
     const TensorLanes<dim>* F = nullptr; ///< in: deformation gradient at the end of the step; hyperelastic laws need it
     /// in: velocity gradient and length of the step `stress` has been turned over; laws in sub-steps (substep.hpp) look
     /// at it. Null: the stress has not been turned.

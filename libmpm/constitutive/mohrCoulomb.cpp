@@ -51,8 +51,8 @@ MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
 {}
 
 MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters, std::optional<Substep> substep)
-    : parameters_(checked(parameters)), surface_(MohrCoulombSurface(parameters), parameters.tensionCutOff, parameters.moduli.poisson),
-      substep_(substep)
+    : parameters_(checked(parameters)),
+      surface_(MohrCoulombSurface(parameters), parameters.tensionCutOff, parameters.moduli.poisson), substep_(substep)
 {
     if (parameters_.softening && substep_)
         throw InputError("softening: found with substep, allowed is one of them");

@@ -9,29 +9,29 @@
 ///
 ///     1. the return to Mohr-Coulomb's surface alone, where it leaves s1 <= T
 ///     2. the return to the cube s_i <= T alone, where it leaves f <= 0:
-///            s1 = T, s2 and s3 less by nu/(1 - nu) (s1 - T);  if then s2 > T: s1 = s2 = T, s3 less by nu (s1 + s2 - 2 T);
-///            if then s3 > T: (T, T, T)
+///            s1 = T, s2 and s3 less by nu/(1 - nu) (s1 - T);  if then s2 > T: s1 = s2 = T, s3 less by nu (s1 + s2 - 2
+///            T); if then s3 > T: (T, T, T)
 ///     3. both: s1 = T, s3 = z, and as the flow of either keeps the second plastic strain zero, s2 less by
 ///            nu ((s1 - T) + (s3 - z)), whatever psi is;  held within [z, T]: the vertices
 ///
 /// (de Borst, Crisfield, Remmers & Verhoosel, "Nonlinear Finite Element Analysis of Solids and Structures", 2nd ed.
 /// 2012, section 7.5.2, has Rankine's and Mohr-Coulomb's planes; candidates and their order are derived here.) A limit
-/// at or above the apex of a cone never acts and is none. Where it acts the flow rule has a solution for psi = 0 too, so
-/// no volume is dropped. Proven against all subsets of the nine planes in tests/unit/tensionCutOff.cpp.
+/// at or above the apex of a cone never acts and is none. Where it acts the flow rule has a solution for psi = 0 too,
+/// so no volume is dropped. Proven against all subsets of the nine planes in tests/unit/tensionCutOff.cpp.
 #include "constitutive/mohrCoulombReturn.hpp"
 
 namespace mpm::constitutive
 {
 struct CutOffSurface : MohrCoulombSurface
 {
-    double limit;   ///< T, infinite where it cannot act [Pa]
-    double corner;  ///< z = k T - sc [Pa]
-    double poisson; ///< nu
+    double limit;    ///< T, infinite where it cannot act [Pa]
+    double corner;   ///< z = k T - sc [Pa]
+    double poisson;  ///< nu
     double sideways; ///< nu/(1 - nu)
 
     CutOffSurface(const MohrCoulombSurface& surface, double tensionCutOff, double nu)
-        : MohrCoulombSurface(surface), limit(tensionCutOff < surface.highest ? tensionCutOff
-                                                                            : std::numeric_limits<double>::infinity()),
+        : MohrCoulombSurface(surface),
+          limit(tensionCutOff < surface.highest ? tensionCutOff : std::numeric_limits<double>::infinity()),
           corner(k * limit - strength), poisson(nu), sideways(nu / (1 - nu))
     {
         dropsVolume *= double(!(tensionCutOff < highest));

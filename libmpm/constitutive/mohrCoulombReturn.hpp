@@ -29,11 +29,12 @@ namespace mpm::constitutive
 struct MohrCoulombParameters
 {
     ElasticModuli moduli;
-    double cohesion;
-    double frictionAngle;
+    double cohesion = 0;
+    double frictionAngle = 0;
     double dilationAngle = 0;
-    double tensionCutOff = std::numeric_limits<double>::infinity(); ///< largest principal stress (mohrCoulombCutOff.hpp)
-    std::optional<Softening> softening = std::nullopt;              ///< (softening.hpp)
+    double tensionCutOff =
+        std::numeric_limits<double>::infinity();       ///< largest principal stress (mohrCoulombCutOff.hpp)
+    std::optional<Softening> softening = std::nullopt; ///< (softening.hpp)
 };
 
 /// Throws InputError unless the parameters are finite and in their bounds.

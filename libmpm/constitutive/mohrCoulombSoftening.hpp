@@ -2,8 +2,8 @@
 /// Mohr-Coulomb's return where every lane has a surface of its own, that of its history kappa (softening.hpp).
 ///
 /// With x the growth of kappa in the step, the return to the surface of kappa + x makes plastic strain and so a growth
-/// g(x); wanted is g(x) = x. g hardly changes with x (its slope is the rate of softening over the elastic stiffness), so
-/// two secant steps from x = g(0) end within round-off of it; a slope beyond 0.9, where strength falls faster than
+/// g(x); wanted is g(x) = x. g hardly changes with x (its slope is the rate of softening over the elastic stiffness),
+/// so two secant steps from x = g(0) end within round-off of it; a slope beyond 0.9, where strength falls faster than
 /// stress can be unloaded, counts as 0.9. The stress then lies on the surface of the kappa that is kept, to round-off.
 /// Lanes do not know of each other.
 #include "constitutive/mohrCoulombChunk.hpp"
@@ -37,8 +37,8 @@ struct SofteningSurface
     double growth; ///< of kappa for one |dev sigma_lost|: h/referenceLength sqrt(2/3)/(2 G) [1/Pa]
 
     SofteningSurface(const MohrCoulombParameters& p, double scale)
-        : moduli(p.moduli), from(p.softening->from), invOver(1 / p.softening->over), limit(p.tensionCutOff),
-          cohesion{p.cohesion, p.softening->cohesion},
+        : moduli(p.moduli), from(p.softening->from), invOver(1 / p.softening->over),
+          limit(p.tensionCutOff), cohesion{p.cohesion, p.softening->cohesion},
           friction{p.frictionAngle * std::numbers::pi / 180, p.softening->frictionAngle * std::numbers::pi / 180},
           dilation{p.dilationAngle * std::numbers::pi / 180, p.softening->dilationAngle * std::numbers::pi / 180},
           growth(scale * std::sqrt(2.0 / 3) / (2 * p.moduli.shear()))

@@ -14,20 +14,20 @@ std::optional<Softening> readSoftening(const dictionary::Dictionary& material, d
     if (!d)
         return std::nullopt;
     Softening s;
-    s.from = d->get<double>({"from", "deviatoric plastic strain up to which the peak holds", unit::none,
-                             Bound::nonNegative(), 0.0});
-    s.over = d->get<double>({"over", "further strain over which strength falls to its residual value", unit::none,
-                             Bound::positive()});
-    s.cohesion = d->get<double>(
-        {"cohesion", "residual cohesion, at most that of the peak", unit::pressure, Bound::between(0, cohesion), cohesion});
+    s.from = d->get<double>(
+        {"from", "deviatoric plastic strain up to which the peak holds", unit::none, Bound::nonNegative(), 0.0});
+    s.over = d->get<double>(
+        {"over", "further strain over which strength falls to its residual value", unit::none, Bound::positive()});
+    s.cohesion = d->get<double>({"cohesion", "residual cohesion, at most that of the peak", unit::pressure,
+                                 Bound::between(0, cohesion), cohesion});
     if (friction)
     {
         s.frictionAngle = d->get<double>({"frictionAngle", "residual angle of friction [deg], at most that of the peak",
                                           unit::none, Bound::between(0, frictionAngle), frictionAngle});
         const double highest = std::min(dilationAngle, s.frictionAngle);
-        s.dilationAngle =
-            d->get<double>({"dilationAngle", "residual angle of dilation [deg], at most that of the peak and frictionAngle",
-                            unit::none, Bound::between(0, highest), highest});
+        s.dilationAngle = d->get<double>(
+            {"dilationAngle", "residual angle of dilation [deg], at most that of the peak and frictionAngle",
+             unit::none, Bound::between(0, highest), highest});
     }
     s.referenceLength = d->get<double>(
         {"referenceLength", "width of the shear band in which these strains hold", unit::length, Bound::positive()});
@@ -40,8 +40,9 @@ std::string describeSoftening(const std::optional<Softening>& s, double scale)
 {
     if (!s)
         return {};
-    return fmt::format(", softening from {:g} over {:g} to cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} "
-                       "deg, referenceLength {:g} m (strains times {:g})",
-                       s->from, s->over, s->cohesion, s->frictionAngle, s->dilationAngle, s->referenceLength, scale);
+    return fmt::format(
+        ", softening from {:g} over {:g} to cohesion {:g} Pa, frictionAngle {:g} deg, dilationAngle {:g} "
+        "deg, referenceLength {:g} m (strains times {:g})",
+        s->from, s->over, s->cohesion, s->frictionAngle, s->dilationAngle, s->referenceLength, scale);
 }
 } // namespace mpm::constitutive

@@ -58,6 +58,7 @@ const std::array<OptionalColumn, Particles::optionals>& Particles::optionalColum
         {&Particles::dilationRate, "dilationRate", "1/s"},
         {&Particles::flowMemory, "flowMemory", "1"},
         {&Particles::viscousStress, "viscousStress", "Pa"},
+        {&Particles::plasticStrain, "plasticStrain", "1"},
     }};
     return columns;
 }

@@ -67,10 +67,11 @@ struct Particles
     Column<double> dilationRate;  ///< plastic part of tr D in the last step (treatment/volumetricAveraging.hpp) [1/s]
     Column<double> flowMemory;    ///< 1 where the law yields, fading (treatment/stressRelaxation.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
+    Column<double> plasticStrain; ///< kappa, history of laws that soften (constitutive/softening.hpp) [-]
 
     /// All of these, in the order of files. A new one is a member above and a line in particles.cpp: memory, files,
     /// sorting, splitting and predictions of cost follow this list.
-    static constexpr std::size_t optionals = 4;
+    static constexpr std::size_t optionals = 5;
     static const std::array<OptionalColumn, optionals>& optionalColumns();
     /// Is the column in use?
     bool has(Column<double> Particles::*column) const;
