@@ -16,7 +16,7 @@ using dictionary::Bound;
 using dictionary::Dictionary;
 namespace unit = dictionary::unit;
 
-std::vector<constitutive::Material> readMaterials(const Dictionary& d)
+std::vector<constitutive::Material> readMaterials(const Dictionary& d, std::optional<double> cellSize)
 {
     std::vector<constitutive::Material> materials;
     for (const auto& name : d.dictNames())
@@ -25,7 +25,10 @@ std::vector<constitutive::Material> readMaterials(const Dictionary& d)
         constitutive::Material material;
         material.name = name;
         material.density = m.get<double>({"density", "initial density", unit::density, Bound::positive()});
-        material.law = constitutive::makeLaw(m);
+        auto law = constitutive::makeLaw(m);
+        if (cellSize)
+            law->regularise(*cellSize);
+        material.law = std::move(law);
         m.passOver("initialStress", "stress at the start, applied by seedParticles");
         m.passOver("initialVelocity", "velocity at the start, applied by seedParticles");
         m.passOver("constants", "names for numbers in initialVelocity");
@@ -38,7 +41,7 @@ std::vector<constitutive::Material> readMaterials(const Dictionary& d)
 
 std::vector<constitutive::Material> matchMaterials(const Dictionary& d, const state::State& state)
 {
-    const auto all = readMaterials(d);
+    const auto all = readMaterials(d, state.grid.h);
     std::vector<constitutive::Material> out;
     for (const auto& name : state.materials)
     {

@@ -17,8 +17,10 @@
 
 namespace mpm::cases
 {
-/// Every material in file order; names must be unique by construction of a dictionary.
-std::vector<constitutive::Material> readMaterials(const dictionary::Dictionary& materialProperties);
+/// Every material in file order; names must be unique by construction of a dictionary. Laws that follow the cell size
+/// (Law::regularise) are told it.
+std::vector<constitutive::Material> readMaterials(const dictionary::Dictionary& materialProperties,
+                                                  std::optional<double> cellSize = {});
 
 /// The same in the order of State::materials, by which particles name them; InputError for one that is not there.
 std::vector<constitutive::Material> matchMaterials(const dictionary::Dictionary& materialProperties,

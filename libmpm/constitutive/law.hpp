@@ -25,10 +25,11 @@ enum class Region : Index
     face,    ///< one plane
     edge1,   ///< s1 = s2 (l1, triaxial compression)
     edge2,   ///< s2 = s3 (l2, triaxial extension)
-    apex
+    apex,
+    tension ///< the limit of tension, alone or with others
 };
 
-/// "elastic", "face", "edge s1=s2 (l1)", "edge s2=s3 (l2)", "apex".
+/// "elastic", "face", "edge s1=s2 (l1)", "edge s2=s3 (l2)", "apex", "tension limit".
 const char* regionName(Region region);
 
 /// One chunk of particles. All 64 lanes hold finite numbers; lanes from `count` on are copies that nobody reads back.
@@ -39,6 +40,8 @@ struct Chunk
     int count = lanes;
     alignas(64) double stress[nc][lanes];  ///< in: rotated stress at the start; out: stress at the end of the step [Pa]
     alignas(64) double dStrain[nc][lanes]; ///< strain increment dt D, tensor components (zz = 0 in plane strain) [-]
+    /// in and out: the history of a law that usesHistory() [-]; else not looked at
+    alignas(64) double plasticStrain[lanes] = {};
     const TensorLanes<dim>* F = nullptr; ///< in: deformation gradient at the end of the step; hyperelastic laws need it
     /// in: velocity gradient and length of the step `stress` has been turned over; laws in sub-steps (substep.hpp) look
     /// at it. Null: the stress has not been turned.
@@ -50,8 +53,8 @@ struct Chunk
     /// out: volumetric plastic strain the return to the apex drops beyond what the flow rule allows [-]; 0 elsewhere.
     /// At psi = 0 that is all of it; for psi > 0 every apex return has multipliers >= 0, so nothing is dropped.
     alignas(64) double apexStrain[lanes];
-    /// out: f/max(|sigma|, strength scale) of the returned principal stresses [-]; <= 0 inside, round-off on the
-    /// surface
+    /// out: f/max(|sigma|, strength scale) of the returned principal stresses [-]; <= 0 inside (0 where the whole chunk
+    /// is too far inside for a return), round-off on the surface
     alignas(64) double yield[lanes];
     alignas(64) Region region[lanes]; ///< out: where each lane ended
     int apexReturns = 0;              ///< out: lanes below `count` that ended at the apex
@@ -84,6 +87,11 @@ class Law
     }
     /// Can the law yield at all? (The monitor asks.)
     virtual bool plastic() const { return false; }
+    /// Does the law read and write Chunk::plasticStrain? Then particles carry it (Particles::plasticStrain).
+    virtual bool usesHistory() const { return false; }
+    /// The cell size [m] of the grid the law works on, told once before the first step to laws whose history depends on
+    /// it (softening.hpp).
+    virtual void regularise(double) {}
     /// Into chunk.yield: what update() reports of the stress it leaves, of chunk.stress as it stands. Nothing else
     /// changes. For judging stored stresses; no step asks.
     virtual void reportYield(Chunk<2>& chunk) const { std::fill_n(chunk.yield, lanes, 0.0); }

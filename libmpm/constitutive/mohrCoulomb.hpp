@@ -20,12 +20,13 @@
 ///     cohesion       1e3;    // [Pa] >= 0
 ///     frictionAngle  42;     // [deg] in [0, 90)
 ///     dilationAngle  0;      // [deg] in [0, frictionAngle]; default 0
+///     tensionCutOff  0;      // [Pa] >= 0, largest principal stress (mohrCoulombCutOff.hpp); absent: none
+///     softening      { over 0.1; cohesion 0.2e3; referenceLength 0.1; }    // absent: none (softening.hpp)
 ///     substep        { tolerance 1e-4; }     // absent: none (substep.hpp)
 ///
-/// Tests: tests/unit/mohrCoulomb.cpp, tests/verification/rateEquations.cpp. Errors: InputError for values out of
-/// bounds.
-#include "constitutive/elasticTrial.hpp"
-#include "constitutive/mohrCoulombReturn.hpp"
+/// Tests: tests/unit/mohrCoulomb.cpp, tests/unit/tensionCutOff.cpp, tests/unit/softening.cpp,
+/// tests/verification/rateEquations.cpp. Errors: InputError for values out of bounds.
+#include "constitutive/mohrCoulombCutOff.hpp"
 #include "constitutive/substep.hpp"
 
 namespace mpm::constitutive
@@ -45,19 +46,32 @@ class MohrCoulomb : public Law
     bool plastic() const override { return true; }
     void reportYield(Chunk<2>& chunk) const override;
     void reportYield(Chunk<3>& chunk) const override;
-    double tensionLimit() const override { return surface_.highest; }
+    double tensionLimit() const override;
     bool dilates() const override { return parameters_.dilationAngle > 0; }
-    bool dropsApexVolume() const override
-    {
-        return parameters_.dilationAngle == 0 && parameters_.frictionAngle > 0 && !substep_;
-    }
+    bool dropsApexVolume() const override;
+    bool usesHistory() const override { return parameters_.softening.has_value(); }
+    void regularise(double cellSize) override;
+    /// Does the limit of tension ever act?
+    bool cutsOff() const { return std::isfinite(surface_.limit); }
 
     const MohrCoulombParameters& parameters() const { return parameters_; }
     const std::optional<Substep>& substep() const { return substep_; }
 
+  protected:
+    /// The words of a material; without `friction` there are none for angles.
+    static MohrCoulombParameters readParameters(const dictionary::Dictionary& material, bool friction);
+    /// Cut-off, softening and sub-steps for describe().
+    std::string describeRest() const;
+
   private:
+    template <int dim>
+    void updateWhole(Chunk<dim>& chunk) const;
+    template <int dim>
+    void yieldOf(Chunk<dim>& chunk) const;
+
     MohrCoulombParameters parameters_;
-    MohrCoulombSurface surface_;
+    CutOffSurface surface_;
     std::optional<Substep> substep_;
+    double scale_ = 1; ///< h/referenceLength
 };
 } // namespace mpm::constitutive

@@ -18,8 +18,10 @@
 ///   s2 - s3, so both are decided there.
 /// - Every returned point takes s1 = (s3 + sc)/k: f is round-off of the returned stress, however large the trial was.
 #include "constitutive/elasticTrial.hpp"
+#include "constitutive/softening.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace mpm::constitutive
 {
@@ -27,13 +29,21 @@ namespace mpm::constitutive
 struct MohrCoulombParameters
 {
     ElasticModuli moduli;
-    double cohesion;
-    double frictionAngle;
+    double cohesion = 0;
+    double frictionAngle = 0;
     double dilationAngle = 0;
+    double tensionCutOff =
+        std::numeric_limits<double>::infinity();       ///< largest principal stress (mohrCoulombCutOff.hpp)
+    std::optional<Softening> softening = std::nullopt; ///< (softening.hpp)
 };
 
 /// Throws InputError unless the parameters are finite and in their bounds.
 void requireParameters(const MohrCoulombParameters& parameters);
+
+struct Slope
+{
+    double value, minusOne, root; ///< (1 + sin a)/(1 - sin a), the same minus one, its square root
+};
 
 /// Constants of the return, all formed from sums of terms of one sign.
 struct MohrCoulombSurface
@@ -49,7 +59,42 @@ struct MohrCoulombSurface
     double dropsVolume;      ///< 1/K at psi = 0, else 0 [1/Pa]
 
     explicit MohrCoulombSurface(const MohrCoulombParameters& parameters);
+    /// From the slopes of friction and dilation; keepsVolume: does the flow rule (psi = 0)?
+    MohrCoulombSurface(const ElasticModuli& moduli, double cohesion, const Slope& friction, const Slope& dilation,
+                       bool keepsVolume);
 };
+
+inline MohrCoulombSurface::MohrCoulombSurface(const ElasticModuli& moduli, double cohesion, const Slope& friction,
+                                              const Slope& dilation, bool keepsVolume)
+{
+    const double nu = moduli.poisson, stiff = 1 - 2 * nu, m = dilation.value, mMinus1 = dilation.minusOne;
+    k = friction.value;
+    kMinus1 = friction.minusOne;
+    invK = 1 / k;
+    strength = 2 * cohesion * friction.root;
+    onset = strength / k;
+
+    // D b/(2G) = b + q (1, 1, 1)
+    const double q = nu / stiff * mMinus1;
+    const double aDb = k * m + 1 + q * kMinus1;
+    face2 = q / aDb;
+    face3 = (q - 1) / aDb;
+
+    // E g.D^-1: (h1, h1, h3) on l1, (h2, h4, h4) on l2
+    const double h1 = stiff - nu * mMinus1, h3 = stiff + mMinus1;
+    const double l1 = (2 + k) * stiff + mMinus1 * (k - 2 * nu);
+    l1Major = k * h1 / l1;
+    l1Minor = k * h3 / l1;
+    const double h2 = stiff - 2 * nu * mMinus1, h4 = stiff + mMinus1 * (1 - nu);
+    const double l2 = (1 + 2 * k) * stiff + 2 * mMinus1 * (k * (1 - nu) - nu);
+    l2Major = k * h2 / l2;
+    l2Minor = k * h4 / l2;
+
+    const bool cone = kMinus1 > 0;
+    apex = cone ? strength / (cone ? kMinus1 : 1) : 0;
+    highest = cone ? apex : std::numeric_limits<double>::infinity();
+    dropsVolume = double(keepsVolume) / moduli.bulk(); // a product, so that lanes need no branch
+}
 
 struct Principal
 {
@@ -60,6 +105,7 @@ struct Returned
 {
     Principal s;
     bool plastic, apex, edge1, edge2;
+    bool tension = false;
 };
 
 /// s1 >= s2 >= s3 in, the returned ones out (equal to the input where not plastic). All selects, no branches.

@@ -23,7 +23,7 @@ Eigen::Matrix3d exponential(const SymmetricTensor& a, const SymmetricTensor& b)
 } // namespace
 
 PointStep updatePoint(const Law& law, const SymmetricTensor& stress, const SymmetricTensor& dStrain,
-                      const SymmetricTensor& strain)
+                      const SymmetricTensor& strain, double plasticStrain)
 {
     alignas(64) TensorLanes<3> F;
     const Eigen::Matrix3d end = law.hyperelastic() ? exponential(strain, dStrain) : Eigen::Matrix3d::Identity();
@@ -38,9 +38,11 @@ PointStep updatePoint(const Law& law, const SymmetricTensor& stress, const Symme
             chunk.stress[k][i] = stress[k];
             chunk.dStrain[k][i] = dStrain[k];
         }
+    std::fill_n(chunk.plasticStrain, lanes, plasticStrain);
     law.update(chunk);
 
-    PointStep out{{}, chunk.region[0], chunk.plasticWork[0], chunk.apexStrain[0], chunk.yield[0]};
+    PointStep out{
+        {}, chunk.region[0], chunk.plasticWork[0], chunk.apexStrain[0], chunk.yield[0], chunk.plasticStrain[0]};
     for (int k = 0; k < 6; ++k)
         out.stress[k] = chunk.stress[k][0];
     return out;

@@ -22,7 +22,8 @@ SymmetricTensor plus(SymmetricTensor a, const SymmetricTensor& b)
 void append(std::vector<SoilTestPoint>& points, const SymmetricTensor& dStrain, const PointStep& step)
 {
     const auto& last = points.back();
-    points.push_back({plus(last.strain, dStrain), step.stress, step.region, last.plasticWork + step.plasticWork});
+    points.push_back({plus(last.strain, dStrain), step.stress, step.region, last.plasticWork + step.plasticWork,
+                      step.plasticStrain});
 }
 
 SymmetricTensor confined(const SoilTest& test, double ratio)
@@ -34,11 +35,13 @@ SymmetricTensor confined(const SoilTest& test, double ratio)
 /// The lateral strain increment at which the lateral stress is that of the cell. The stress grows with the strain, by
 /// pieces linearly: a secant step lands on the root once both points lie on its piece; a bracket keeps it from
 /// straying.
-SymmetricTensor lateralIncrement(const Law& law, const SymmetricTensor& stress, const SymmetricTensor& strain,
-                                 double axial, double cell)
+SymmetricTensor lateralIncrement(const Law& law, const SoilTestPoint& from, double axial, double cell)
 {
+    const SymmetricTensor& stress = from.stress;
     const auto strains = [axial](double x) { return SymmetricTensor{x, axial, x, 0, 0, 0}; };
-    const auto excess = [&](double x) { return updatePoint(law, stress, strains(x), strain).stress[0] + cell; };
+    const auto excess = [&](double x) {
+        return updatePoint(law, stress, strains(x), from.strain, from.plasticStrain).stress[0] + cell;
+    };
     const double nu = law.poissonRatio();
     const double size = std::max(cell, std::abs(stress[1])) + law.waveModulus() * std::abs(axial);
 
@@ -105,14 +108,16 @@ std::vector<SoilTestPoint> followTable(const Law& law, const SoilTest& test)
             strain[k] = table.number(row, columns[k]);
         if (points.empty())
             points.push_back({strain, law.hyperelastic() ? updatePoint(law, {}, strain).stress : test.startStress,
-                              Region::elastic, 0});
+                              Region::elastic, 0, 0});
         else
             for (Index i = 0; i < test.steps; ++i)
             {
                 SymmetricTensor dStrain;
                 for (int k = 0; k < 6; ++k)
                     dStrain[k] = (strain[k] - former[k]) / double(test.steps);
-                append(points, dStrain, updatePoint(law, points.back().stress, dStrain, points.back().strain));
+                append(
+                    points, dStrain,
+                    updatePoint(law, points.back().stress, dStrain, points.back().strain, points.back().plasticStrain));
             }
         former = points.back().strain = strain;
     }
@@ -146,7 +151,8 @@ std::string soilTestHelp()
            "    maxStrain       0.05;   // axial compression, or gamma = 2 exy (oedometer: 0.01)\n"
            "    steps           500;    // of the test; between the rows of a table: 1\n"
            "    startStress     (0 0 0 0 0 0);  // [Pa] xx yy zz xy yz zx, for a table\n  }\n\n"
-           "Writes step, strains, stresses, meanStress, deviatorStress, volumetricStrain, plasticWork, region; the\n"
+           "Writes step, strains, stresses, meanStress, deviatorStress, volumetricStrain, plasticWork, region (and\n"
+           "plasticStrain of a law that softens, as in a band referenceLength wide); the\n"
            "figure (.png, .svg) goes beside the table. -trial reads E_Pa, nu, c_Pa, phi_deg, psi_deg, tr_xx,\n"
            "tr_yy, tr_zz, tr_xy, tr_yz, tr_zx of each row and adds region, ret_xx ... ret_zx: Mohr-Coulomb's return.";
 }
@@ -233,20 +239,20 @@ std::vector<SoilTestPoint> runSoilTest(const Law& law, const SoilTest& test)
 
     std::vector<SoilTestPoint> points;
     const SymmetricTensor start = confined(test, triaxial ? 1 : test.K0);
-    points.push_back({law.hyperelastic() ? strainAt(law, start) : SymmetricTensor{}, start, Region::elastic, 0});
+    points.push_back({law.hyperelastic() ? strainAt(law, start) : SymmetricTensor{}, start, Region::elastic, 0, 0});
     const double step = test.maxStrain / double(test.steps);
     for (Index i = 0; i < test.steps; ++i)
     {
-        const auto& [strain, stress, region, work] = points.back();
-        const SymmetricTensor dStrain = triaxial    ? lateralIncrement(law, stress, strain, -step, test.confiningStress)
+        const SoilTestPoint last = points.back();
+        const SymmetricTensor dStrain = triaxial    ? lateralIncrement(law, last, -step, test.confiningStress)
                                         : oedometer ? SymmetricTensor{0, -step, 0, 0, 0, 0}
                                                     : SymmetricTensor{0, 0, 0, 0.5 * step, 0, 0};
-        append(points, dStrain, updatePoint(law, stress, dStrain, strain));
+        append(points, dStrain, updatePoint(law, last.stress, dStrain, last.strain, last.plasticStrain));
     }
     return points;
 }
 
-CsvTable soilTestTable(const std::vector<SoilTestPoint>& points)
+CsvTable soilTestTable(const std::vector<SoilTestPoint>& points, bool history)
 {
     std::vector<std::string> columns{"step"};
     for (const char letter : {'e', 's'})
@@ -254,10 +260,12 @@ CsvTable soilTestTable(const std::vector<SoilTestPoint>& points)
             columns.push_back(letter + std::string(name));
     for (const char* name : {"meanStress", "deviatorStress", "volumetricStrain", "plasticWork", "region"})
         columns.emplace_back(name);
+    if (history)
+        columns.emplace_back("plasticStrain");
     CsvTable table(columns);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-        const auto& [e, s, region, work] = points[i];
+        const auto& [e, s, region, work, plasticStrain] = points[i];
         std::vector<std::string> cells{std::to_string(i)};
         const auto number = [&cells](double x) { cells.push_back(fmt::format("{:.17g}", x)); };
         std::for_each(e.begin(), e.end(), number);
@@ -271,6 +279,8 @@ CsvTable soilTestTable(const std::vector<SoilTestPoint>& points)
         number(e[0] + e[1] + e[2]);
         number(work);
         cells.push_back(regionName(region));
+        if (history)
+            number(plasticStrain);
         table.addRow(std::move(cells));
     }
     return table;

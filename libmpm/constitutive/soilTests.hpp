@@ -52,7 +52,8 @@ struct SoilTestPoint
 {
     SymmetricTensor strain, stress; ///< totals [-], [Pa]
     Region region;
-    double plasticWork; ///< since the start [J/m^3]
+    double plasticWork;   ///< since the start [J/m^3]
+    double plasticStrain; ///< history of a law that has one (softening.hpp) [-]
 };
 
 /// `path` if it names a test or a file; InputError otherwise.
@@ -70,6 +71,6 @@ SoilTest readSoilTest(const dictionary::Dictionary& law, const std::string& path
 std::vector<SoilTestPoint> runSoilTest(const Law& law, const SoilTest& test);
 
 /// Columns step, exx ... ezx, sxx ... szx, meanStress, deviatorStress (q = sqrt(3/2 s:s)), volumetricStrain,
-/// plasticWork, region.
-CsvTable soilTestTable(const std::vector<SoilTestPoint>& points);
+/// plasticWork, region; and plasticStrain of a law with history.
+CsvTable soilTestTable(const std::vector<SoilTestPoint>& points, bool history = false);
 } // namespace mpm::constitutive

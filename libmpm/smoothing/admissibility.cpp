@@ -13,12 +13,15 @@ double largestYield(const state::Particles& p, const std::vector<constitutive::M
 {
     double largest = 0;
     constitutive::Chunk<dim> chunk;
+    const bool history = p.has(&state::Particles::plasticStrain);
     for (Index first = 0; first < p.size(); first += lanes)
     {
         chunk.count = int(std::min<Index>(lanes, p.size() - first));
         for (std::size_t k = 0; k < std::size_t(stressComponents(dim)); ++k)
             for (int l = 0; l < lanes; ++l) // lanes beyond the last particle repeat it
                 chunk.stress[k][l] = p.stress[k][std::size_t(first + std::min(l, chunk.count - 1))];
+        for (int l = 0; l < lanes && history; ++l)
+            chunk.plasticStrain[l] = p.plasticStrain[std::size_t(first + std::min(l, chunk.count - 1))];
         for (std::size_t m = 0; m < materials.size(); ++m)
         {
             const auto begin = p.material.begin() + first, end = begin + chunk.count;

@@ -59,6 +59,7 @@ const std::array<OptionalColumn, Particles::optionals>& Particles::optionalColum
         {&Particles::flowMemory, "flowMemory", "1"},
         {&Particles::viscousStress, "viscousStress", "Pa"},
         {&Particles::quietLooks, "quietLooks", "1"},
+        {&Particles::plasticStrain, "plasticStrain", "1"},
     }};
     return columns;
 }

@@ -68,10 +68,11 @@ struct Particles
     Column<double> flowMemory;    ///< 1 where the law yields, fading (treatment/stressRelaxation.hpp) [-]
     Column<double> quietLooks;    ///< looks in a row at which a particle's tile was quiet (stepping/rest.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
+    Column<double> plasticStrain; ///< kappa, history of laws that soften (constitutive/softening.hpp) [-]
 
     /// All of these, in the order of files. A new one is a member above and a line in particles.cpp: memory, files,
     /// sorting, splitting and predictions of cost follow this list.
-    static constexpr std::size_t optionals = 5;
+    static constexpr std::size_t optionals = 6;
     static const std::array<OptionalColumn, optionals>& optionalColumns();
     /// Is the column in use?
     bool has(Column<double> Particles::*column) const;

@@ -291,6 +291,7 @@ class ExplicitStepper : public Stepper
     double smallestMass_ = 0;
     double kick_ = 0; ///< time over which the coming step's accelerations act: dt, half of it at a staggered start
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
+    bool anyHistory_ = false;                   ///< is there a material whose law usesHistory()?
     bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step

@@ -40,8 +40,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     for (const auto& material : scene.materials)
     {
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
+        anyHistory_ = anyHistory_ || material.law->usesHistory();
         anyHyperelastic_ = anyHyperelastic_ || material.law->hyperelastic();
     }
+    state.particles.keep(&state::Particles::plasticStrain, anyHistory_);
     if (affine() && !state.particles.hasAffine())
         state.particles.enableAffine();
     if (!affine() && state.particles.hasAffine()) // the state of a run with another transfer

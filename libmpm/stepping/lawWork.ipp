@@ -133,10 +133,14 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         ws.volume[l] *= ws.J[l];
         ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
+    if (anyHistory_)
+        transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() || scene_.treatment.followsFlow())
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
+    if (anyHistory_)
+        transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     ws.ahead.some(5);
 
     constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
@@ -245,7 +249,7 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive:
         return;
     }
     const auto [low, high] = std::minmax_element(material, material + count);
-    const constitutive::Chunk<dim> before = chunk;
+    const constitutive::Chunk<dim> before = chunk; // lanes of laws without history keep theirs, zero
     for (std::int32_t m = *low; m <= *high; ++m)
     {
         if (std::find(material, material + count, m) == material + count)
@@ -257,6 +261,7 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive:
             {
                 for (int k = 0; k < stressSize<dim>; ++k)
                     chunk.stress[k][l] = own.stress[k][l];
+                chunk.plasticStrain[l] = own.plasticStrain[l];
                 chunk.plasticWork[l] = own.plasticWork[l];
                 chunk.apexStrain[l] = own.apexStrain[l];
                 chunk.yield[l] = own.yield[l];

@@ -38,7 +38,7 @@ int driveLaw(const cases::Options& options)
 
     const auto points = constitutive::runSoilTest(*law, test);
     const fs::path out = options.value("out", fs::path(path).stem().string() + "Test.csv");
-    output::replaceText(out, constitutive::soilTestTable(points).text());
+    output::replaceText(out, constitutive::soilTestTable(points, law->usesHistory()).text());
     const auto& s = points.back().stress;
     fmt::print(
         "driveLaw: {} of {}\n{} steps, last stress xx {:.6g} yy {:.6g} zz {:.6g} xy {:.6g} yz {:.6g} zx {:.6g} Pa "
