@@ -26,6 +26,8 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("gapWork", ledger.gapWork, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
+    visit("motionWork", ledger.motionWork, "J");
+    visit("motionSupply", ledger.motionSupply, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
     visit("bodyForceWork", ledger.bodyForceWork, "J");
     visit("kineticEnergy", ledger.kineticEnergy, "J");
@@ -43,7 +45,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 42 * 8,
+    static_assert(sizeof(state::Ledger) == 44 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

@@ -70,7 +70,7 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork +
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
@@ -163,6 +163,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "averagingLoss",
                                                      "viscosityLoss",
                                                      "gapWork",
+                                                     "motionWork",
                                                      "residual"};
     return columns;
 }
@@ -188,6 +189,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.averagingLoss,
             l.viscosityLoss,
             l.gapWork,
+            l.motionWork,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping
