@@ -5,10 +5,7 @@
 ///     initialStress, initialVelocity and constants are seedParticles' own.
 /// constant/bodyForce: a force per mass by formulas (case/expressionForce.hpp); absent: none.
 /// constant/g: value (0 -9.8 0); absent: no gravity.
-/// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a
-/// plane
-///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
-///     free.
+/// constant/boundaryConditions: case/readBoundaries.hpp; absent: all boundaries are free.
 /// system/mpmSchemes: case/readSchemes.hpp
 #include "case/caseDirectory.hpp"
 #include "case/overrides.hpp"
@@ -27,10 +24,6 @@ std::vector<constitutive::Material> matchMaterials(const dictionary::Dictionary&
                                                    const state::State& state);
 
 std::optional<Vector3> readGravity(const dictionary::Dictionary& g, int dim);
-
-/// Walls and loads. Patches give planes to boundaries named after them.
-void readBoundaries(const dictionary::Dictionary& boundaryConditions, const state::State& state,
-                    stepping::Scene& scene);
 
 struct SceneOfCase
 {

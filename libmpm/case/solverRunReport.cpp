@@ -6,6 +6,7 @@
 #include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
 #include "case/solverRun.hpp"
+#include "nodal/wall.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -17,8 +18,8 @@ namespace
 {
 std::string wallText(const nodal::Wall& wall, const state::GridBox& grid)
 {
-    const auto place =
-        fmt::format("{} = {:g} m", axisNames[wall.axis], grid.origin[wall.axis] + grid.h * double(wall.plane));
+    const auto place = fmt::format("{} = {:g} m{}", axisNames[wall.axis], nodal::wallPosition(wall, grid, 0),
+                                   wall.motion ? " at t = 0, " + wall.motion->describe() : "");
     switch (wall.type)
     {
     case nodal::WallType::fixed:
@@ -184,7 +185,7 @@ void SolverRun::summary()
         profile_.apartProcessor += force->seconds();
     const auto t = stepping::totals(state_, scene_.scene.materials);
     const auto& l = state_.ledger;
-    const double supplied = std::abs(l.gravityWork + l.tractionWork + l.bodyForceWork);
+    const double supplied = std::abs(l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork);
     const double mismatch = stepping::residual(l, t.strainEnergy);
     const Index steps = state_.step - firstStep_;
     const char* unit = state_.particles.dim == 2 ? "kJ/m" : "kJ";
@@ -204,6 +205,11 @@ void SolverRun::summary()
          fmt::format("kinetic {:.4g} {} (peak {:.4g} at {:.3f} s), strain {:.4g}, plastic {:.4g}, friction {:.4g}",
                      t.kineticEnergy / 1e3, unit, peakKinetic_ / 1e3, peakTime_, t.strainEnergy / 1e3,
                      l.plasticDissipation / 1e3, l.frictionDissipation / 1e3));
+    bool motion = false;
+    for (const auto& wall : scene_.scene.walls)
+        motion = motion || wall.motion;
+    if (motion)
+        line("motion", fmt::format("walls did {:.4g} {} of work", l.motionWork / 1e3, unit));
     if (scene_.scene.relaxationTime)
         line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
     if (const auto& treatment = scene_.scene.treatment; treatment.any())

@@ -114,8 +114,8 @@ smoothing::Comparison comparison(const state::State& state, const smoothing::Smo
 RemedyLoss remedyLoss(const state::Ledger& ledger)
 {
     RemedyLoss out;
-    out.released = ledger.gravityWork + ledger.tractionWork + ledger.bodyForceWork;
-    if (ledger.gravityWork == 0 && ledger.tractionWork == 0 && ledger.bodyForceWork == 0)
+    out.released = ledger.gravityWork + ledger.tractionWork + ledger.bodyForceWork + ledger.motionWork;
+    if (out.released == 0)
         out.released = ledger.initialKineticEnergy + ledger.initialStrainEnergy;
     const auto share = [&](const char* name) {
         const double value = entry(ledger, name);

@@ -81,10 +81,13 @@ T Dictionary::get(const Entry<T>& entry) const
     const Rest all{found->value.data(), found->value.data() + found->value.size()};
     constexpr bool isNumber =
         std::is_same_v<T, double> || std::is_same_v<T, Vector3> || std::is_same_v<T, std::vector<FormulaText>>;
+    constexpr bool isTable = std::is_same_v<T, std::vector<TableRow>>;
     constexpr bool isPlain = std::is_same_v<T, Dimensions> || std::is_same_v<T, bool> || std::is_same_v<T, std::string>;
     Rest rest = all;
     if constexpr (!isPlain)
         rest = Body::skipPrefix(*this, entry.word, all, entry.dimensions, isNumber);
+    if (isTable && !rest.empty() && rest.at->kind == Kind::word && rest.at->text == "table")
+        ++rest.at;
     T value{};
     const bool taken = take(rest, value);
     if (taken)
@@ -107,6 +110,22 @@ template std::vector<std::string> Dictionary::get(const Entry<std::vector<std::s
 template FormulaText Dictionary::get(const Entry<FormulaText>&) const;
 template std::vector<FormulaText> Dictionary::get(const Entry<std::vector<FormulaText>>&) const;
 template std::vector<Vector3> Dictionary::get(const Entry<std::vector<Vector3>>&) const;
+template std::vector<TableRow> Dictionary::get(const Entry<std::vector<TableRow>>&) const;
+
+bool Dictionary::holdsTable(const std::string& word) const
+{
+    body_->remember({word, "", "", "", "", ""});
+    const NodeEntry* entry = body_->node->find(word);
+    if (!entry || entry->dict)
+        return false;
+    Rest rest{entry->value.data(), entry->value.data() + entry->value.size()};
+    if (rest.is('[')) // dimensions
+        while (!rest.empty() && !(rest.at++)->is(']'))
+            ;
+    if (!rest.empty() && rest.at->kind == Kind::word && rest.at->text == "table")
+        return true;
+    return rest.is('(') && rest.end - rest.at > 1 && rest.at[1].is('(');
+}
 
 std::string Dictionary::choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,
                                const std::optional<std::string>& fallback) const

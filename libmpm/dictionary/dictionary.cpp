@@ -1,5 +1,6 @@
 #include "dictionary/dictionary.hpp"
 
+#include "base/folders.hpp"
 #include "dictionary/body.hpp"
 #include "dictionary/parser.hpp"
 
@@ -228,6 +229,24 @@ void Dictionary::rejectUnread() const
                                      (known.size() > shown.size() ? " ..." : "") + didYouMean(entry.word, known));
         }
     }
+}
+
+bool Dictionary::holdsDict(const std::string& word) const
+{
+    body_->remember({word, "", "", "", "", ""});
+    const NodeEntry* entry = body_->node->find(word);
+    return entry && entry->dict;
+}
+
+std::filesystem::path Dictionary::file(const std::string& word, const std::string& help) const
+{
+    const auto name = get<std::string>({word, help});
+    const auto path = (body_->root.empty() ? std::filesystem::path(name) : body_->root / name).lexically_normal();
+    if (!body_->root.empty() && !isWithinReach(realPath(path), body_->root))
+        fail(word, "'" + name + "', which lies outside the case folder", "a file of the case, as \"constant/file\"");
+    if (!std::filesystem::is_regular_file(path))
+        fail(word, "'" + name + "', no such file", "a file of the case, as \"constant/file\"");
+    return path;
 }
 
 void Dictionary::passOver(const std::string& word, const std::string& help) const

@@ -67,6 +67,14 @@ struct FormulaText
     Location where;
 };
 
+/// One row of a table: (t value) or (t (x y z)).
+struct TableRow
+{
+    double at = 0;
+    std::vector<double> values;
+    Location where;
+};
+
 /// Interval of allowed values; an open end excludes its value.
 struct Bound
 {
@@ -134,9 +142,19 @@ class Dictionary
 
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
     /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers),
-    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, FormulaText, std::vector<FormulaText>.
+    /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, FormulaText, std::vector<FormulaText>,
+    /// std::vector<TableRow> (the word `table` may stand before it).
     template <class T>
     T get(const Entry<T>& entry) const;
+
+    /// Does the entry hold a table: `table ( ... )` or `((0 ...`? Asking makes the word known (not read).
+    bool holdsTable(const std::string& word) const;
+    /// Is the entry a nested dictionary? Asking makes the word known (not read).
+    bool holdsDict(const std::string& word) const;
+
+    /// The file an entry names, relative to the case folder; InputError if there is none, or if it lies outside what
+    /// #include may reach.
+    std::filesystem::path file(const std::string& word, const std::string& help) const;
 
     /// A name out of a catalogue; an unknown one is an error with the list and the nearest name.
     std::string choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,

@@ -126,6 +126,24 @@ bool take(Rest& rest, Dimensions& value)
     return true;
 }
 
+bool take(Rest& rest, TableRow& value)
+{
+    if (!rest.is('('))
+        return false;
+    value.where = rest.at->where();
+    ++rest.at;
+    if (!take(rest, value.at))
+        return false;
+    const bool vector = rest.is('(');
+    value.values.assign(vector ? 0 : 1, 0.0);
+    if (vector ? !take(rest, value.values) || value.values.empty() : !take(rest, value.values[0]))
+        return false;
+    if (!rest.is(')'))
+        return false;
+    ++rest.at;
+    return true;
+}
+
 std::string shownDefault(double value)
 {
     return fmt::format("{}", value);
@@ -159,5 +177,10 @@ std::string shownDefault(const Dimensions& value)
 std::string shownDefault(const Vector3& value)
 {
     return fmt::format("({} {} {})", value[0], value[1], value[2]);
+}
+
+std::string shownDefault(const TableRow& value)
+{
+    return fmt::format("({} ...)", value.at);
 }
 } // namespace mpm::dictionary

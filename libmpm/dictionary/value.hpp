@@ -30,6 +30,7 @@ bool take(Rest& rest, std::string& value); ///< a word or a quoted text
 bool take(Rest& rest, FormulaText& value); ///< a number, a word or a quoted text
 bool take(Rest& rest, Vector3& value);     ///< (x y z)
 bool take(Rest& rest, Dimensions& value);  ///< [5 or 7 exponents]
+bool take(Rest& rest, TableRow& value);    ///< (t value) or (t (x y z))
 
 /// `( a b c )`, or with the count that OpenFOAM writes before it: `3 ( a b c )`.
 template <class T>
@@ -62,6 +63,7 @@ std::string shownDefault(const std::string& value);
 std::string shownDefault(const FormulaText& value);
 std::string shownDefault(const Dimensions& value);
 std::string shownDefault(const Vector3& value);
+std::string shownDefault(const TableRow& value);
 template <class T>
 std::string shownDefault(const std::vector<T>& values)
 {
@@ -119,6 +121,12 @@ template <>
 struct Type<Vector3>
 {
     static constexpr const char *name = "vector", *allowed = "three numbers (x y z)", *plural = "vectors (x y z)";
+};
+template <>
+struct Type<TableRow>
+{
+    static constexpr const char *name = "row of a table", *allowed = "a time and its value, (t value) or (t (x y z))",
+                                *plural = "rows (t value) or (t (x y z))";
 };
 template <>
 struct Type<Dimensions>

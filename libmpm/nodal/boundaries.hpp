@@ -1,7 +1,9 @@
 #pragma once
 /// What a boundary dictionary says, as plain data: walls (wall.hpp has their equations) and loads (traction.hpp).
 #include "base/types.hpp"
+#include "dictionary/motion.hpp"
 
+#include <memory>
 #include <string>
 
 namespace mpm::nodal
@@ -22,6 +24,8 @@ struct Wall
     Index plane = 0; ///< lattice index of the wall's plane of nodes
     double mu = 0;
     bool separation = false;
+    double position = 0; ///< of a moving wall at t = 0, along its axis [m]; `plane` then says nothing
+    std::shared_ptr<const dictionary::Motion> motion; ///< null: it rests
 };
 
 struct Load

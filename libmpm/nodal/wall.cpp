@@ -1,19 +1,66 @@
 #include "nodal/wall.hpp"
 
+#include "base/error.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace mpm::nodal
 {
+double wallPosition(const Wall& wall, const state::GridBox& grid, double time)
+{
+    const auto axis = std::size_t(wall.axis);
+    if (!wall.motion)
+        return grid.origin[axis] + grid.h * double(wall.plane);
+    return wall.position + wall.motion->displacement(time)[axis];
+}
+
+Index wallPlane(const Wall& wall, const state::GridBox& grid, double time)
+{
+    if (!wall.motion)
+        return wall.plane;
+    const double index = (wallPosition(wall, grid, time) - grid.origin[std::size_t(wall.axis)]) / grid.h;
+    return Index(wall.side < 0 ? std::floor(index + 1e-6) : std::ceil(index - 1e-6));
+}
+
+template <int dim>
+void WallEffect<dim>::place(double time, double dt, const state::GridBox& grid)
+{
+    if (!wall_.motion)
+        return;
+    const auto axis = std::size_t(wall_.axis);
+    velocity_ = wall_.motion->meanVelocity(time, dt);
+    if (!(std::abs(velocity_[axis]) * dt <= (1 + 1e-9) * grid.h))
+        throw StepError(fmt::format("at time {:.9g} s the wall '{}' moves {:.3g} m in a step of {:.3g} s, allowed is "
+                                    "a cell, {:.3g} m: a smaller deltaT is needed",
+                                    time, wall_.name, std::abs(velocity_[axis]) * dt, dt, grid.h));
+    plane_ = wallPlane(wall_, grid, time);
+}
+
 template <int dim>
 std::pair<Index, Index> WallEffect<dim>::range(const NodeRow<dim>& row) const
 {
-    const auto behind = [&](Index index) { return wall_.side < 0 ? index <= wall_.plane : index >= wall_.plane; };
+    const auto behind = [&](Index index) { return wall_.side < 0 ? index <= plane_ : index >= plane_; };
     if (wall_.axis > 0)
         return behind(wall_.axis == 1 ? row.j : row.k) ? std::pair(row.begin, row.end) : std::pair(row.end, row.end);
     if (wall_.side < 0)
-        return {row.begin, std::clamp(wall_.plane + 1, row.begin, row.end)};
-    return {std::clamp(wall_.plane, row.begin, row.end), row.end};
+        return {row.begin, std::clamp(plane_ + 1, row.begin, row.end)};
+    return {std::clamp(plane_, row.begin, row.end), row.end};
+}
+
+/// Gives node i the wall's velocity along an axis.
+template <int dim>
+void WallEffect<dim>::take(NodeRow<dim>& row, Index i, int a) const
+{
+    Record& r = row.node[i];
+    const std::size_t n = std::size_t(i - row.begin);
+    const double excess = r[row.trial + a] - velocity_[a], impulse = -r[0] * excess;
+    row.walls->pushed[n][a] += excess;
+    row.walls->other[n][a] += impulse;
+    row.sums->motionWork += impulse * velocity_[a];
+    row.sums->wallLoss += impulse * velocity_[a];
+    r[row.trial + a] = velocity_[a];
 }
 
 template <int dim>
@@ -26,18 +73,23 @@ void WallEffect<dim>::push(NodeRow<dim>& row) const
     for (Index i = begin; i < end; ++i)
     {
         Record& r = row.node[i];
-        const double into = wall_.side * r[row.trial + wall_.axis];
+        const double into = wall_.side * (r[row.trial + wall_.axis] - velocity_[wall_.axis]);
         if (!row.carries(i) || (wall_.separation && !(into > 0)))
             continue;
-        const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)
             if (a == wall_.axis || wall_.type == WallType::fixed)
-            {
-                row.walls->pushed[n][a] += r[row.trial + a];
-                row.walls->other[n][a] -= r[0] * r[row.trial + a];
-                r[row.trial + a] = 0;
-            }
+                take(row, i, a);
     }
+}
+
+template <int dim>
+void WallEffect<dim>::pushAgain(NodeRow<dim>& row) const
+{
+    const auto [begin, end] = range(row);
+    for (Index i = begin; i < end; ++i)
+        if (row.carries(i) && (!wall_.separation ||
+                               wall_.side * (row.node[i][row.trial + wall_.axis] - velocity_[wall_.axis]) > 0))
+            take(row, i, wall_.axis);
 }
 
 template <int dim>
@@ -56,13 +108,16 @@ void WallEffect<dim>::rub(NodeRow<dim>& row) const
         double square = 0;
         for (int a = 0; a < dim; ++a)
             if (a != wall_.axis)
-                square += r[row.trial + a] * r[row.trial + a];
+                square += (r[row.trial + a] - velocity_[a]) * (r[row.trial + a] - velocity_[a]);
         const double keep = square > 0 ? std::max(0.0, 1 - wall_.mu * into / std::sqrt(square)) : 0;
         for (int a = 0; a < dim; ++a)
             if (a != wall_.axis)
             {
-                row.walls->friction[n][a] += r[0] * (keep - 1) * r[row.trial + a];
-                r[row.trial + a] *= keep;
+                const double slip = r[row.trial + a] - velocity_[a], impulse = r[0] * (keep - 1) * slip;
+                row.walls->friction[n][a] += impulse;
+                row.sums->motionWork += impulse * velocity_[a];
+                row.sums->frictionLoss += impulse * velocity_[a];
+                r[row.trial + a] = keep * slip + velocity_[a];
             }
         row.sums->contacts += 1;
     }
@@ -71,18 +126,22 @@ void WallEffect<dim>::rub(NodeRow<dim>& row) const
 template <int dim>
 void WallEffect<dim>::follow(NodeRow<dim>& row) const
 {
-    const bool sticks = wall_.type == WallType::fixed || (wall_.type == WallType::friction && wall_.mu > 0);
+    const bool fixed = wall_.type == WallType::fixed;
+    const bool sticks = wall_.type == WallType::friction && wall_.mu > 0;
     const auto [begin, end] = range(row);
     for (Index i = begin; i < end; ++i)
     {
         Record& r = row.node[i];
-        bool rests = true;
+        const auto with = [&](int a) { return r[row.velocity + a] == velocity_[a]; };
+        const bool held = with(wall_.axis);
+        bool rests = held;
         for (int a = 0; a < dim; ++a)
-            rests = rests && r[row.velocity + a] == 0;
-        if (r[row.velocity + wall_.axis] == 0 || wall_.side * r[row.trial + wall_.axis] > 0)
-            r[row.trial + wall_.axis] = 0;
-        for (int a = 0; a < dim && sticks && rests; ++a)
-            r[row.trial + a] = 0;
+            rests = rests && with(a);
+        if (held || wall_.side * (r[row.trial + wall_.axis] - velocity_[wall_.axis]) > 0)
+            r[row.trial + wall_.axis] = velocity_[wall_.axis];
+        for (int a = 0; a < dim; ++a)
+            if ((sticks && rests) || (fixed && held && with(a)))
+                r[row.trial + a] = velocity_[a];
     }
 }
 

@@ -17,8 +17,24 @@
 ///
 /// The wall must lie on a plane of nodes (an error names the nearest two). Books impulse and work, split into friction
 /// and the rest. Verified in tests/unit/walls.cpp.
+///
+/// A moving wall (dictionary/motion.hpp has all forms of a motion):
+///
+///     piston { type roller; plane { normal (-1 0 0); position 0.013; } motion { velocity (0.1 0 0); } }
+///     base   { type fixed; motion { acceleration { file "constant/quake.csv"; direction (1 0 0); scale 9.81; } } }
+///
+/// The equations hold for the velocity relative to the wall's, V: the mean of the step, so that the soil goes exactly
+/// as far as the wall. V may have any direction; along the wall it shears what sticks or rubs. The plane is where the
+/// motion has taken it at the start of the step, between nodes too; nodes at or behind it are held, so soil beside it
+/// is up to a cell too soft until the next node is reached, and each new node is caught with an impact of its own
+/// (wallLoss). Where a moving wall meets others, what moves into a wall after friction is pushed again, so that every
+/// normal velocity is that of its wall. Work of the wall on the soil: motionWork = sum J . V, positive when supplied;
+/// impact and friction are those of the relative velocity. A wall that rests in effect (V = 0) is bitwise a wall
+/// without motion. Refused: more than a cell in a step. Verified in tests/unit/movingWalls.cpp and by the scenes
+/// shakenLayer and passiveWall of tests/verification.
 #include "nodal/boundaries.hpp"
 #include "nodal/nodeRow.hpp"
+#include "state/gridBox.hpp"
 
 namespace mpm::nodal
 {
@@ -26,13 +42,18 @@ template <int dim>
 class WallEffect
 {
   public:
-    explicit WallEffect(const Wall& wall) : wall_(wall) {}
+    explicit WallEffect(const Wall& wall) : wall_(wall), plane_(wall.plane) {}
+
+    /// To be called before a step from `time` on: where the wall is and how fast it goes. StepError if it is too fast.
+    void place(double time, double dt, const state::GridBox& grid);
 
     /// First, for all walls: takes away what moves into the wall (fixed: all velocity) from the lanes `trial`.
     void push(NodeRow<dim>& row) const;
     /// Then, for all walls: friction on what is left, which no longer moves into any wall. So the order of walls in the
     /// dictionary does not matter.
     void rub(NodeRow<dim>& row) const;
+    /// Last, for all walls if any moves: friction of one may have slowed what another pushes.
+    void pushAgain(NodeRow<dim>& row) const;
     /// For velocities w that strains are taken from, in the lanes `trial`, with v* in the lanes `velocity`: what the
     /// walls have brought to rest in v* rests in w, and nothing moves into the wall. Contact and stick are decided once
     /// a step: if w decided anew, a wall that pushes would let go whenever w points away from it, strains would not
@@ -42,8 +63,16 @@ class WallEffect
 
   private:
     std::pair<Index, Index> range(const NodeRow<dim>& row) const;
+    void take(NodeRow<dim>& row, Index i, int axis) const;
     Wall wall_;
+    Index plane_;
+    Vector3 velocity_{}; ///< V
 };
+
+/// Where a wall is at a time, along its axis [m].
+double wallPosition(const Wall& wall, const state::GridBox& grid, double time);
+/// Lattice index of the plane of nodes nearest to the soil that it holds then.
+Index wallPlane(const Wall& wall, const state::GridBox& grid, double time);
 
 extern template class WallEffect<2>;
 extern template class WallEffect<3>;

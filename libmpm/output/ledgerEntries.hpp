@@ -27,6 +27,8 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("restLoss", ledger.restLoss, "J");
     visit("gravityWork", ledger.gravityWork, "J");
     visit("tractionWork", ledger.tractionWork, "J");
+    visit("motionWork", ledger.motionWork, "J");
+    visit("motionSupply", ledger.motionSupply, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
     visit("bodyForceWork", ledger.bodyForceWork, "J");
     visit("kineticEnergy", ledger.kineticEnergy, "J");
@@ -47,7 +49,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wakes", ledger.wakes, "1");
     visit("wallContacts", ledger.wallContacts, "1");
 
-    static_assert(sizeof(state::Ledger) == 48 * 8,
+    static_assert(sizeof(state::Ledger) == 50 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

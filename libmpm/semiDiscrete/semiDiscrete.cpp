@@ -19,6 +19,8 @@ std::string whyNotSmooth(const Model& model)
     }
     for (const auto& wall : model.walls)
     {
+        if (wall.motion)
+            return fmt::format("the wall '{}' moves", wall.name);
         if (wall.separation)
             return fmt::format("the wall '{}' separates: its force jumps", wall.name);
         if (wall.type == nodal::WallType::friction && wall.mu > 0)

@@ -32,6 +32,8 @@ struct Ledger
     double restLoss = 0;      ///< kinetic energy of particles that fell asleep (stepping/rest.hpp)
     double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2
+    double motionWork = 0;    ///< work of moving walls and bodies on the body, positive when supplied
+    double motionSupply = 0;  ///< the same, of steps that supplied any: what has come in, however much went back
     double apexVolume = 0;    ///< volume dropped by apex returns beyond the flow rule [m^3]
     double bodyForceWork = 0; ///< work of prescribed body forces other than gravity
     double kineticEnergy = 0; ///< of the particles, now

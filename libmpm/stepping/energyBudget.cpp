@@ -80,7 +80,7 @@ void beginLedger(state::State& state, const std::vector<constitutive::Material>&
 
 double residual(const state::Ledger& l, double strainEnergy)
 {
-    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork +
+    return l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
@@ -174,6 +174,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "viscosityLoss",
                                                      "gapWork",
                                                      "restLoss",
+                                                     "motionWork",
                                                      "residual"};
     return columns;
 }
@@ -200,6 +201,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.viscosityLoss,
             l.gapWork,
             l.restLoss,
+            l.motionWork,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -16,6 +16,8 @@
 ///     viscosityLoss        sum (V q + V' q') tr e/2, q the viscous normal stress of volumetric averaging in the forces
 ///     restLoss             sum m v_p^2/2 of particles that fall asleep (rest.hpp)
 ///     gapWork              sum V p_mid (g' - g) of tension gaps, given back when they close
+///     motionWork           sum J . V of the impulses J that walls and bodies moving at V give to nodes; friction and
+///                          impact are then those of the velocity relative to V
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
 ///                          density, s the stress before a step, s' the same turned, S after it, V and V' the
@@ -27,8 +29,8 @@
 ///     staggering           energy that velocities lack because they live half a step off the stresses, a function of
 ///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
 ///                          leapfrog keeps kinetic + strain energy - staggering, not their sum without it
-///     residual             gravityWork + tractionWork + bodyForceWork + finiteStrainWork + change of staggering
-///                          - change of kineticEnergy - change of strainEnergy - all losses
+///     residual             gravityWork + tractionWork + bodyForceWork + motionWork + finiteStrainWork + change of
+///                          staggering ///                          - change of kineticEnergy - change of strainEnergy - all losses
 /// Losses are positive when energy left the body. Leaving any entry out makes the residual grow by it. What remains is
 /// the change of dt from step to step (a leapfrog keeps energy at constant steps only) and round-off.
 #include "constitutive/material.hpp"

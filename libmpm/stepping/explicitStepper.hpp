@@ -246,6 +246,8 @@ class ExplicitStepper : public Stepper
     void bookResting(const std::vector<Index>& blocks);
     void bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha);
 
+    void placeWalls(double dt);
+    double wallSpeed() const;
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
     void forEachRow(Body&& body)
@@ -264,7 +266,8 @@ class ExplicitStepper : public Stepper
     std::vector<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
-    transfer::WallPlanes wallPlanes_;
+    bool wallsMove_ = false;
+    transfer::WallPlanes wallPlanes_; ///< of walls that stay where they are
 
     state::TileLayout layout_;
     state::TileGrid grid_;

@@ -28,7 +28,9 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     for (const auto& wall : scene.walls)
     {
         walls_.emplace_back(wall);
-        wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
+        wallsMove_ = wallsMove_ || wall.motion;
+        if (!wall.motion || wall.motion->stillAlong(std::size_t(wall.axis)))
+            wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
     }
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
@@ -66,6 +68,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
 {
     arrange();
     project();
+    if (wallsMove_)
+        placeWalls(dt);
     kick_ = scene_.staggeredStart && state_.step == 0 ? 0.5 * dt : dt;
     switch (scene_.stressUpdate)
     {
@@ -115,6 +119,8 @@ void ExplicitStepper<dim, Shape>::arrange()
     if (scene_.splitting && state_.step % scene_.splitting->interval == 0)
     {
         Clock clock(times_.split);
+        if (wallsMove_)
+            barriers_ = wallBarriers(scene_, state_.grid, state_.time);
         if (splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0)
         {
             sortLoose(state_, layout_, Narrow::nodes);
@@ -315,7 +321,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         work_.ofForcesBefore += 2 * total.bodyForceWork - total.bodyForceEnd;
         work_.ofForces += total.bodyForceEnd;
         report_.momentum = total.momentum;
-        report_.largestSpeed = std::sqrt(total.fastest);
+        report_.largestSpeed = std::max(std::sqrt(total.fastest), wallSpeed());
     }
     if (pass.strain)
     {

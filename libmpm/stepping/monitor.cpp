@@ -49,13 +49,13 @@ Finding Monitor::look(const state::State& state, const StepReport& report, const
 
 Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
-    const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.finiteStrainWork;
+    const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork;
     const double dissipated = l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.splitMergeLoss;
     const double start = l.initialKineticEnergy + l.initialStrainEnergy;
     const double used = l.kineticEnergy + report.strainEnergy + dissipated;
     const double nowhere = used - start - work;
     const double known = start + std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) +
-                         std::abs(dissipated) + std::max(0.0, l.transferLoss + l.wallLoss);
+                         l.motionSupply + std::abs(dissipated) + std::max(0.0, l.transferLoss + l.wallLoss);
     if (!std::isfinite(nowhere))
         return {"energy is no longer a finite number: a smaller deltaT is needed", true};
     if (known > 0)

@@ -3,7 +3,8 @@
 /// wrong run is found within a few steps and no state is written after it.
 ///
 ///     energy      used = K + U + plastic + friction + damping + splitting, K kinetic and U strain energy now;
-///                 given = K + U at the start + work of gravity, loads, body forces + finiteStrainWork
+///                 given = K + U at the start + work of gravity, loads, body forces and moving walls +
+///                 finiteStrainWork
 ///                 (energyBudget.hpp). used - given is energy that came from nowhere. Allowed: energyTolerance times
 ///                 all energy that was there, supplied or dissipated. What is lost in transfer and impact (each takes
 ///                 what the other gives back) and what time integration holds back for half a step (staggering) is left

@@ -68,6 +68,15 @@ void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state
         row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
 
+/// Where moving walls are in the coming step, and how fast.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::placeWalls(double dt)
+{
+    for (auto& wall : walls_)
+        if (wall.wall().motion)
+            wall.place(state_.time, dt, state_.grid);
+}
+
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
 {
@@ -75,6 +84,9 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
         wall.push(row);
     for (const auto& wall : walls_)
         wall.rub(row);
+    if (wallsMove_)
+        for (const auto& wall : walls_)
+            wall.pushAgain(row);
 }
 
 /// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
@@ -142,6 +154,8 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;
+    ledger.motionWork += sums.motionWork;
+    ledger.motionSupply += std::max(0.0, sums.motionWork);
     ledger.dampingDissipation += sums.dampingLoss;
     ledger.wallContacts += sums.contacts;
     ledger.transferLoss += sums.kineticAfter - sums.kineticBefore;

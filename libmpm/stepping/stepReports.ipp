@@ -70,7 +70,21 @@ double ExplicitStepper<dim, Shape>::largestSpeed() const
         }
         fastest = std::max(fastest, vv);
     }
-    return std::sqrt(fastest);
+    return std::max(std::sqrt(fastest), wallSpeed());
+}
+
+/// Of the fastest moving wall now: soil it meets will be as fast.
+template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::wallSpeed() const
+{
+    double fastest = 0;
+    for (const auto& wall : scene_.walls)
+        if (wall.motion)
+        {
+            const Vector3 v = wall.motion->velocity(state_.time);
+            fastest = std::max(fastest, std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+        }
+    return fastest;
 }
 
 template <int dim, class Shape>

@@ -1,5 +1,6 @@
 #include "stepping/stepper.hpp"
 
+#include "nodal/wall.hpp"
 #include "stepping/timeStep.hpp"
 
 #include <fmt/format.h>
@@ -30,11 +31,11 @@ std::string methodText(const Scene& scene)
     return text + (scene.staggeredStart ? ", staggered start" : "");
 }
 
-std::vector<splitting::Barrier> wallBarriers(const Scene& scene, const state::GridBox& grid)
+std::vector<splitting::Barrier> wallBarriers(const Scene& scene, const state::GridBox& grid, double time)
 {
     std::vector<splitting::Barrier> barriers;
     for (const auto& wall : scene.walls)
-        barriers.push_back({wall.axis, wall.side, grid.origin[wall.axis] + grid.h * double(wall.plane)});
+        barriers.push_back({wall.axis, wall.side, grid.origin[wall.axis] + grid.h * double(nodal::wallPlane(wall, grid, time))});
     return barriers;
 }
 } // namespace mpm::stepping

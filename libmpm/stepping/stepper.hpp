@@ -94,7 +94,7 @@ struct Scene
 struct StepReport
 {
     double smallestJacobian = 1;  ///< min det F
-    double largestSpeed = 0;      ///< max |v_p| [m/s]
+    double largestSpeed = 0;      ///< max |v_p|, and of walls in motion [m/s]
     double strainEnergy = 0;      ///< sum V 1/2 sigma : C^-1 : sigma [J]
     Vector3 momentum{};           ///< sum m v_p [N s]
     double lightestNode = 0;      ///< smallest mass of a node that carries any [kg]
@@ -142,7 +142,7 @@ class Stepper
     virtual PassTimes times() const = 0;
     /// Smallest mass of a node that carries mass over rho h^d of a full cell, for the stability limit.
     virtual double smallestNodalMassFraction() = 0;
-    /// max |v_p| of the particles as they are [m/s].
+    /// max |v_p| of the particles as they are, and of walls in motion [m/s].
     virtual double largestSpeed() const = 0;
 };
 
@@ -154,5 +154,5 @@ template <int dim, class Shape>
 std::unique_ptr<Stepper> makeExplicitStepper(state::State& state, const Scene& scene);
 
 /// Where children of split particles must not go.
-std::vector<splitting::Barrier> wallBarriers(const Scene& scene, const state::GridBox& grid);
+std::vector<splitting::Barrier> wallBarriers(const Scene& scene, const state::GridBox& grid, double time = 0);
 } // namespace mpm::stepping

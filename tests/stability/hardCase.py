@@ -37,7 +37,8 @@ class HardCase(SceneCase):
         with that of impacts on walls (each takes what the other gives back), may not become a gain of more than `most` of
         the energy that was there or supplied."""
         ledger, history = run.state(-1).ledger, run.series()
-        supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork"))
+        supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork",
+                                                      "motionSupply") if n in ledger)
         supplied += np.abs(history["gravityWork"]).max()
         if supplied > 0:
             budget = run.series("energyBudget")

@@ -183,7 +183,8 @@ class SceneCase:
         if scale > 0:
             self.check("momentum that came from nowhere" + tag, np.abs(momentum - sum(sources)).max() / scale, "<=", 1e-12)
         self.check("yield violation" + tag, history["maxYieldViolation"].max(), "<=", 1e-9)
-        supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork"))
+        supplied = sum(abs(float(ledger[n])) for n in ("initialKineticEnergy", "initialStrainEnergy", "tractionWork",
+                                                      "motionSupply") if n in ledger)
         supplied += np.abs(history["gravityWork"]).max()  # what bounces gives it back
         if supplied > 0:
             self.check("energy residual" + tag, np.abs(history["residual"]).max() / supplied, "<=", energy)

@@ -1,7 +1,7 @@
 // Boundary dictionaries: planes of walls, and walls that would be ignored or hold what they should not.
 #include "base/error.hpp"
 #include "case/gridFromDict.hpp"
-#include "case/readScene.hpp"
+#include "case/readBoundaries.hpp"
 #include "support/scenes.hpp"
 
 #include <catch2/catch.hpp>
