@@ -1,7 +1,7 @@
 #pragma once
-/// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a plane
-/// of its own: walls at rest or in motion (nodal/wall.hpp) and loads (nodal/traction.hpp). Boundaries not named are
-/// free.
+/// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a
+/// plane of its own: walls at rest or in motion (nodal/wall.hpp) and loads (nodal/traction.hpp). Boundaries not named
+/// are free.
 ///
 ///     base   { type fixed; motion { acceleration { file "constant/quake.csv"; direction (1 0 0); scale 9.81; } } }
 ///     piston { type friction; mu 0.3; plane { normal (-1 0 0); position 0; } motion { velocity (0.1 0 0); } }

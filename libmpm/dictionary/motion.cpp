@@ -26,8 +26,8 @@ Motion readOneOf(const Dictionary& d, const std::array<Word, 3>& words, int dim,
     if (!found)
         throw InputError(d.where(), fmt::format("found no motion, allowed is {}, {} or {}", words[0].word,
                                                 words[1].word, words[2].word));
-    const auto beyond = found->given == Motion::Given::acceleration ? TimeFunction::Beyond::zero
-                                                                    : TimeFunction::Beyond::holds;
+    const auto beyond =
+        found->given == Motion::Given::acceleration ? TimeFunction::Beyond::zero : TimeFunction::Beyond::holds;
     return Motion(found->given,
                   TimeFunction::read(d, found->word, found->help, found->dimensions, dim, beyond, components));
 }

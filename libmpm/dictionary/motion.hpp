@@ -10,8 +10,8 @@
 ///     }
 ///
 /// Displacements count from t = 0: where a displacement is given, its value there is taken off. Beyond its ends a table
-/// of displacements or velocities holds its last value, one of accelerations is zero. A step from t to t + dt moves with
-/// meanVelocity, which takes it to where displacement() says. Verified in tests/unit/timeFunction.cpp.
+/// of displacements or velocities holds its last value, one of accelerations is zero. A step from t to t + dt moves
+/// with meanVelocity, which takes it to where displacement() says. Verified in tests/unit/timeFunction.cpp.
 #include "dictionary/timeFunction.hpp"
 
 namespace mpm::dictionary
@@ -29,12 +29,12 @@ class Motion
     /// Of a dictionary `motion`, which may hold other words too.
     static Motion read(const Dictionary& d, int dim);
 
-    Vector3 displacement(double t) const; ///< [m], zero at t = 0
-    Vector3 velocity(double t) const;     ///< [m/s]
+    Vector3 displacement(double t) const;            ///< [m], zero at t = 0
+    Vector3 velocity(double t) const;                ///< [m/s]
     Vector3 meanVelocity(double t, double dt) const; ///< (displacement(t + dt) - displacement(t))/dt [m/s]
-    bool stillAlong(std::size_t axis) const; ///< is it known to rest for ever?
+    bool stillAlong(std::size_t axis) const;         ///< is it known to rest for ever?
     bool still() const { return stillAlong(0) && stillAlong(1) && stillAlong(2); }
-    std::string describe() const;         ///< "velocity (0.1 0 0) m/s"
+    std::string describe() const; ///< "velocity (0.1 0 0) m/s"
 
   private:
     Given given_;

@@ -141,9 +141,9 @@ class Table : public TimeFunction::Source
             }
             return out;
         }
-        const auto k = std::min(std::size_t(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin()),
-                                times_.size()) -
-                       1;
+        const auto k =
+            std::min(std::size_t(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin()), times_.size()) -
+            1;
         const double d = t - times_[k];
         auto out = sums_[k];
         const auto rest = over(times_[k], d);
@@ -207,8 +207,9 @@ TimeFunction fromRows(const Dictionary& d, const std::string& word, const std::v
             fail(fmt::format("time {:g} after {:g}", row.at, times.back()), "times that rise");
         const std::size_t n = row.values.size();
         if (components == 1 ? n != 1 : direction ? n != 1 : n != 3 && !(dim == 2 && n == 2))
-            fail(fmt::format("{} values at time {:g}", n, row.at),
-                 components == 1 ? "one" : dim == 2 ? "2 or 3, (x y 0)" : "3, (x y z)");
+            fail(fmt::format("{} values at time {:g}", n, row.at), components == 1 ? "one"
+                                                                   : dim == 2      ? "2 or 3, (x y 0)"
+                                                                                   : "3, (x y z)");
         Vector3 value{};
         for (std::size_t a = 0; a < 3; ++a)
             value[a] = scale * (direction ? (*direction)[a] * row.values[0] : a < n ? row.values[a] : 0.0);
@@ -223,20 +224,19 @@ TimeFunction fromRows(const Dictionary& d, const std::string& word, const std::v
 
 TimeFunction::TimeFunction(std::shared_ptr<const Source> source, std::string text)
     : source_(std::move(source)), text_(std::move(text))
-{
-}
+{}
 
 TimeFunction::TimeFunction(const Vector3& value)
     : TimeFunction(std::make_shared<Constant3>(value), fmt::format("({:g} {:g} {:g})", value[0], value[1], value[2]))
-{
-}
+{}
 
 TimeFunction::TimeFunction(const VectorExpression& formulas, const std::string& word)
     : TimeFunction(makeFormulaSource(formulas, word),
                    fmt::format("({} {} {})", formulas[0].text(), formulas[1].text(), formulas[2].text()))
 {
     if (formulas[0].number() && formulas[1].number() && formulas[2].number())
-        source_ = std::make_shared<Constant3>(Vector3{*formulas[0].number(), *formulas[1].number(), *formulas[2].number()});
+        source_ =
+            std::make_shared<Constant3>(Vector3{*formulas[0].number(), *formulas[1].number(), *formulas[2].number()});
 }
 
 TimeFunction::TimeFunction(std::vector<double> times, std::vector<Vector3> values, Beyond beyond)
@@ -268,8 +268,8 @@ TimeFunction TimeFunction::read(const Dictionary& d, const std::string& word, co
         formulas = readVectorExpression(d, word, help, dimensions, dim, variables, constants, true);
     for (const auto& formula : formulas)
         if (!std::isfinite(formula.evaluate({0.0})))
-            throw InputError(formula.where(), fmt::format("{}: found \"{}\", which is not finite at t = 0", word,
-                                                          formula.text()));
+            throw InputError(formula.where(),
+                             fmt::format("{}: found \"{}\", which is not finite at t = 0", word, formula.text()));
     return TimeFunction(formulas, word);
 }
 

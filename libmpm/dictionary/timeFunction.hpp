@@ -16,8 +16,8 @@
 /// Beyond its ends a table holds its first and last value, or is zero there (what the reader asks for). Times of a
 /// table rise. Integrals begin at t = 0.
 ///
-/// Evaluation is safe in several threads and depends on nothing but t, so a continued run finds the same bits. A formula
-/// that is not finite is an InputError at t = 0 and a StepError later. Verified in tests/unit/timeFunction.cpp.
+/// Evaluation is safe in several threads and depends on nothing but t, so a continued run finds the same bits. A
+/// formula that is not finite is an InputError at t = 0 and a StepError later. Verified in tests/unit/timeFunction.cpp.
 #include "dictionary/expression.hpp"
 
 namespace mpm::dictionary

@@ -154,8 +154,7 @@ class Formulas : public TimeFunction::Source
 };
 } // namespace
 
-std::shared_ptr<const TimeFunction::Source> makeFormulaSource(const VectorExpression& formulas,
-                                                              const std::string& word)
+std::shared_ptr<const TimeFunction::Source> makeFormulaSource(const VectorExpression& formulas, const std::string& word)
 {
     return std::make_shared<Formulas>(formulas, word);
 }

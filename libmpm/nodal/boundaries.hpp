@@ -25,7 +25,7 @@ struct Wall
     double mu = 0;
     bool separation = false;
     double position = 0; ///< of a moving wall at t = 0, along its axis [m]; `plane` then says nothing
-    std::shared_ptr<const dictionary::Motion> motion; ///< null: it rests
+    std::shared_ptr<const dictionary::Motion> motion = nullptr; ///< null: it rests
 };
 
 struct Load

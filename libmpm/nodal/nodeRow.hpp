@@ -23,8 +23,8 @@ struct NodeSums
     double dampingLoss = 0;                                    ///< - sum J . (v_i + v*)/2 of damping [J]
     double forceWorkBefore = 0;                                ///< sum dt f . v_i over the projected forces [J]
     double forceWork = 0;                                      ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;   ///< sum m (v_i - v*)^2/2 where walls hold [J]
-    double motionWork = 0; ///< sum J . V of impulses J by walls that move at V [J]
+    double wallLoss = 0;                                       ///< sum m (v_i - v*)^2/2 where walls hold [J]
+    double motionWork = 0;                                     ///< sum J . V of impulses J by walls that move at V [J]
     Index contacts = 0;                                        ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]

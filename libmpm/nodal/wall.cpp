@@ -87,8 +87,8 @@ void WallEffect<dim>::pushAgain(NodeRow<dim>& row) const
 {
     const auto [begin, end] = range(row);
     for (Index i = begin; i < end; ++i)
-        if (row.carries(i) && (!wall_.separation ||
-                               wall_.side * (row.node[i][row.trial + wall_.axis] - velocity_[wall_.axis]) > 0))
+        if (row.carries(i) &&
+            (!wall_.separation || wall_.side * (row.node[i][row.trial + wall_.axis] - velocity_[wall_.axis]) > 0))
             take(row, i, wall_.axis);
 }
 

@@ -56,7 +56,8 @@ TEST_CASE("walls that all move at V see what walls at rest see, to round-off")
 {
     // The grid is no part of the physics but of the method: a frame that moves a cell a step finds the same nodes.
     const double h = 0.25, dt = 1e-3, V = h / dt;
-    const auto update = GENERATE(stepping::StressUpdate::MUSL, stepping::StressUpdate::USL, stepping::StressUpdate::USF);
+    const auto update =
+        GENERATE(stepping::StressUpdate::MUSL, stepping::StressUpdate::USL, stepping::StressUpdate::USF);
     const auto base = GENERATE(WallType::fixed, WallType::friction);
     stepping::Scene rest;
     rest.materials = {scenes::elastic(1e6, 0.3)};
@@ -123,8 +124,8 @@ TEST_CASE("a wall that starts into a free bar makes the stress rho c v behind th
 {
     // 1D: c = sqrt(E/rho) with nu = 0; sigma = - rho c v behind the front, at rest before it
     const double E = 1e6, rho = 1000, v = 0.05, c = std::sqrt(E / rho), h = 0.1;
-    for (const char* text : {"velocity (0.05 0 0);", "displacement (\"0.05*t\" 0 0);",
-                             "velocity table ((0 (0.05 0 0)) (9 (0.05 0 0)));"})
+    for (const char* text :
+         {"velocity (0.05 0 0);", "displacement (\"0.05*t\" 0 0);", "velocity table ((0 (0.05 0 0)) (9 (0.05 0 0)));"})
     {
         auto s = scenes::seedBlock(
             {.corner = {1, 0, 0}, .n = {200, 2, 1}, .spacing = 0.05, .h = h, .density = rho, .cells = {140, 1, 1}});
@@ -159,12 +160,17 @@ TEST_CASE("a wall that starts into a free bar makes the stress rho c v behind th
 TEST_CASE("a wall that crosses nodes compresses what cannot get away")
 {
     // Two rollers close in on a bar from 1 m to 0.8 m: strain 0.2 (rate law, sigma = M log), whichever nodes they cross
-    auto s = scenes::seedBlock({.corner = {1, 0, 0}, .n = {40, 2, 1}, .spacing = 0.025, .h = 0.05, .cells = {40, 1, 1}});
+    auto s =
+        scenes::seedBlock({.corner = {1, 0, 0}, .n = {40, 2, 1}, .spacing = 0.025, .h = 0.05, .cells = {40, 1, 1}});
     stepping::Scene sc;
     sc.materials = {scenes::elastic(1e6, 0)};
     sc.relaxationTime = 0.02;
-    sc.walls = {moving("left", WallType::roller, 0, -1, 1, 0, true, "velocity ((0 (0.2 0 0)) (0.5 (0.2 0 0)) (0.5001 (0 0 0)));"),
-                moving("right", WallType::roller, 0, 1, 2, 0, true, "velocity ((0 (-0.2 0 0)) (0.5 (-0.2 0 0)) (0.5001 (0 0 0)));")};
+    const std::string in = "velocity ((0 (0.2 0)) (0.5 (0.2 0)) (0.5001 (0 0)));";
+    const std::string back = "velocity ((0 (-0.2 0)) (0.5 (-0.2 0)) (0.5001 (0 0)));";
+    sc.walls = {moving("left", WallType::roller, 0, -1, 1, 0, true, in),
+                moving("right", WallType::roller, 0, 1, 2, 0, true, back),
+                {"below", WallType::roller, 1, -1, 0, 0, false},
+                {"above", WallType::roller, 1, 1, 1, 0, false}};
     run(s, sc, 1600, 5e-4);
     double mean = 0, low = 9, high = 0;
     for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
@@ -183,7 +189,8 @@ TEST_CASE("a plane that is dragged rubs with mu N, and its work is friction and 
 {
     // block on a base that moves at 1 m/s: it is dragged with a = mu g until it goes along
     const double mu = 0.3, g = 9.8;
-    auto s = scenes::seedBlock({.corner = {1, 0, 0}, .n = {8, 4, 1}, .spacing = 0.125, .h = 0.25, .cells = {60, 12, 1}});
+    auto s =
+        scenes::seedBlock({.corner = {1, 0, 0}, .n = {8, 4, 1}, .spacing = 0.125, .h = 0.25, .cells = {60, 12, 1}});
     for (std::size_t i = 0; i < 32; ++i)
         s.particles.stress[1][i] = -1000 * g * (0.5 - s.particles.x[1][i]);
     stepping::Scene sc;
