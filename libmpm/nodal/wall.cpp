@@ -21,7 +21,7 @@ Index wallPlane(const Wall& wall, const state::GridBox& grid, double time)
     if (!wall.motion)
         return wall.plane;
     const double index = (wallPosition(wall, grid, time) - grid.origin[std::size_t(wall.axis)]) / grid.h;
-    return Index(wall.side < 0 ? std::floor(index + 1e-6) : std::ceil(index - 1e-6));
+    return Index(wall.side < 0 ? std::floor(index + 0.5 + 1e-6) : std::ceil(index - 0.5 - 1e-6));
 }
 
 template <int dim>

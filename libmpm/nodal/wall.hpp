@@ -25,13 +25,14 @@
 ///
 /// The equations hold for the velocity relative to the wall's, V: the mean of the step, so that the soil goes exactly
 /// as far as the wall. V may have any direction; along the wall it shears what sticks or rubs. The plane is where the
-/// motion has taken it at the start of the step, between nodes too; nodes at or behind it are held, so soil beside it
-/// is up to a cell too soft until the next node is reached, and each new node is caught with an impact of its own
-/// (wallLoss). Where a moving wall meets others, what moves into a wall after friction is pushed again, so that every
-/// normal velocity is that of its wall. Work of the wall on the soil: motionWork = sum J . V, positive when supplied;
-/// impact and friction are those of the relative velocity. A wall that rests in effect (V = 0) is bitwise a wall
-/// without motion. Refused: more than a cell in a step. Verified in tests/unit/movingWalls.cpp and by the scenes
-/// shakenLayer and passiveWall of tests/verification.
+/// motion has taken it at the start of the step, between nodes too; nodes behind it and up to half a cell before it are
+/// held. So a wall that shakes by less than that holds the same nodes, and one that travels has its place wrong by
+/// nothing in the mean, by half a cell at most; each new node is caught with an impact of its own (wallLoss). Where a
+/// moving wall meets others, what moves into a wall after friction is pushed again, so that every normal velocity is
+/// that of its wall. Work of the wall on the soil: motionWork = sum J . V, positive when supplied; impact and friction
+/// are those of the relative velocity. A motion that moves nothing (V = 0) is bitwise no motion. Refused: more than a
+/// cell in a step. Verified in tests/unit/movingWalls.cpp and by the scenes shakenLayer and passiveWall of
+/// tests/verification.
 #include "nodal/boundaries.hpp"
 #include "nodal/nodeRow.hpp"
 #include "state/gridBox.hpp"
