@@ -386,7 +386,7 @@ TEST_CASE("what the reference cannot answer is refused")
 {
     const StrainPath path = StrainPath::table({0, 1}, {SymmetricTensor{}, SymmetricTensor{1e-3, 0, 0, 0, 0, 0}});
     CHECK_THROWS_WITH(integrateRates(paper, {1e5, 0, 0, 0, 0, 0}, path), Contains("start stress"));
-    CHECK_THROWS_WITH(integrateRates({{20e6, 0.5}, 1e3, 42, 0}, {}, path), Contains("nu"));
+    CHECK_THROWS_WITH(integrateRates(MohrCoulombParameters{{20e6, 0.5}, 1e3, 42, 0}, {}, path), Contains("nu"));
     CHECK_THROWS_WITH(StrainPath::table({0, 1, 1}, std::vector<SymmetricTensor>(3)), Contains("growing"));
     CHECK_THROWS_WITH(StrainPath::table({0}, std::vector<SymmetricTensor>(1)), Contains("at least 2"));
     CHECK_THROWS_WITH(StrainPath::harmonic({}, 0), Contains("> 0"));
