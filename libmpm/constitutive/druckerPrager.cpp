@@ -45,12 +45,13 @@ struct Constants
 {
     DruckerPragerCone cone;
     double invStiffness;            ///< 1/(3 G + K A A')
-    double threeG, volume, highest; ///< 3 G, K A', the smaller of apex and limit
+    double volume, highest;         ///< K A', the smaller of apex and limit
+    double ring;                    ///< q on the cone at the limit [Pa]
     double dropsVolume;             ///< 1/K at psi = 0 without a limit, else 0
 
     Constants(const DruckerPragerCone& c, const ElasticModuli& m)
-        : cone(c), invStiffness(1 / (3 * m.shear() + m.bulk() * c.slope * c.flow)), threeG(3 * m.shear()),
-          volume(m.bulk() * c.flow), highest(std::min(c.apex, c.limit)),
+        : cone(c), invStiffness(1 / (3 * m.shear() + m.bulk() * c.slope * c.flow)), volume(m.bulk() * c.flow),
+          highest(std::min(c.apex, c.limit)), ring(c.strength - (c.slope > 0 ? c.slope * highest : 0)),
           dropsVolume(c.flow > 0 || c.limit < c.apex ? 0 : 1 / m.bulk())
     {}
 };
@@ -59,28 +60,23 @@ struct Constants
 {
     const double f = q + c.cone.slope * p - c.cone.strength;
     const double lam = f > 0 ? f * c.invStiffness : 0;
-    const double coneP = p - c.volume * lam, coneQ = q - c.threeG * lam;
-    const bool vertex = coneQ < 0; // f > 0 there
-    const bool cut = c.cone.limit < c.cone.apex;
-    const bool beyond = cut & ((coneP > c.cone.limit) | vertex);
+    const double coneP = p - c.volume * lam;      // where q on the cone is negative, p is beyond the apex
+    const bool beyondApex = coneP > c.cone.apex, beyond = coneP > c.cone.limit;
+    const bool plastic = (f > 0) | beyond;
 
-    // at the limit: alone, or the ring of both
-    const double ring = c.cone.strength - c.cone.slope * c.highest;
-    const double ringQ = q < ring ? q : ring;
+    // q follows from p, so that f is round-off of the stress however far out the trial was
+    double coneQ = c.cone.strength - c.cone.slope * coneP;
+    coneQ = beyondApex ? 0 : coneQ;
+    coneQ = coneQ > 0 ? coneQ : 0;
+    const double limitQ = q < c.ring ? q : c.ring;
+    const double onP = coneP < c.highest ? coneP : c.highest, onQ = beyond ? limitQ : coneQ;
 
     Point out;
-    // on the cone q follows from p, so that f is round-off of the stress however far out the trial was
-    const double straight = c.cone.strength - c.cone.slope * coneP;
-    const double surfaceQ = straight > 0 ? straight : 0;
-    out.p = vertex ? c.highest : coneP;
-    out.q = vertex ? 0 : surfaceQ;
-    out.p = beyond ? c.highest : out.p;
-    out.q = beyond ? ringQ : out.q;
-    out.plastic = (f > 0) | beyond;
-    out.p = out.plastic ? out.p : p;
-    out.q = out.plastic ? out.q : q;
-    out.apex = vertex & !beyond;
-    out.tension = beyond;
+    out.p = plastic ? onP : p;
+    out.q = plastic ? onQ : q;
+    out.plastic = plastic;
+    out.tension = plastic & beyond;
+    out.apex = plastic & beyondApex & !beyond;
     return out;
 }
 
@@ -106,26 +102,27 @@ void updateChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, const DruckerPr
     {
         const double mean = (trials[0][l] + trials[1][l] + trials[2][l]) * (1.0 / 3);
         const double meanStart = (chunk.stress[0][l] + chunk.stress[1][l] + chunk.stress[2][l]) * (1.0 / 3);
-        double s[nc], square = 0;
+        double trial[nc], s[nc], start[nc], square = 0, work = 0;
         for (int k = 0; k < nc; ++k)
         {
-            s[k] = k < 3 ? trials[k][l] - mean : trials[k][l];
+            trial[k] = trials[k][l];
+            s[k] = trial[k] - (k < 3 ? mean : 0);
+            start[k] = chunk.stress[k][l] - (k < 3 ? meanStart : 0);
             square += (k < 3 ? 1 : 2) * s[k] * s[k];
         }
         const double q = std::sqrt(1.5 * square);
         const Point r = returned(c, mean, q);
-        const double kept = q > 0 ? r.q / q : 0;
-        double work = 0;
+        const double share = r.q / q, kept = q > 0 ? share : 0;
         for (int k = 0; k < nc; ++k)
         {
-            const double start = k < 3 ? chunk.stress[k][l] - meanStart : chunk.stress[k][l], end = kept * s[k];
-            work += (k < 3 ? 1 : 2) * (start + end) * (s[k] - end);
-            chunk.stress[k][l] = r.plastic ? (k < 3 ? r.p + end : end) : trials[k][l];
+            const double end = kept * s[k], back = end + (k < 3 ? r.p : 0);
+            work += (k < 3 ? 1 : 2) * (start[k] + end) * (s[k] - end);
+            chunk.stress[k][l] = r.plastic ? back : trial[k];
         }
         const double lost = mean - r.p;
         work = work * quarterOverG + 0.5 * (meanStart + r.p) * lost * invK;
         chunk.plasticWork[l] = r.plastic ? work : 0;
-        chunk.apexStrain[l] = r.apex ? lost * c.dropsVolume : 0;
+        chunk.apexStrain[l] = (r.apex ? lost : 0) * c.dropsVolume;
         chunk.yield[l] = relativeYield(c.cone, r.p, r.q);
         Region region = r.plastic ? Region::face : Region::elastic;
         region = r.tension ? Region::tension : region;

@@ -47,7 +47,7 @@ void requireParameters(const MohrCoulombParameters& p)
 }
 
 MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
-    : MohrCoulombSurface(p.moduli, p.cohesion, slope(p.frictionAngle), slope(p.dilationAngle), !(p.dilationAngle > 0))
+    : MohrCoulombSurface(p.moduli, p.cohesion, slope(p.frictionAngle), slope(p.dilationAngle), p.dilationAngle > 0 ? 0 : 1 / p.moduli.bulk())
 {}
 
 MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters, std::optional<Substep> substep)
@@ -132,9 +132,9 @@ void MohrCoulomb::updateWhole(Chunk<dim>& chunk) const
     if (parameters_.softening)
         returnSofteningChunk(chunk, SofteningSurface(parameters_, scale_));
     else if (cutsOff())
-        returnChunk(chunk, parameters_.moduli, surface_);
+        returnChunk(chunk, parameters_.moduli, surface_, ElasticCone(surface_, surface_.limit));
     else
-        returnChunk(chunk, parameters_.moduli, static_cast<const MohrCoulombSurface&>(surface_));
+        returnChunk(chunk, parameters_.moduli, static_cast<const MohrCoulombSurface&>(surface_), ElasticCone(surface_));
 }
 
 void MohrCoulomb::update(Chunk<2>& chunk) const

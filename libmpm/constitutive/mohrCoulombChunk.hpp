@@ -110,6 +110,47 @@ void keepTrial(Chunk<dim>& chunk, const double (&trials)[stressSize<dim>][lanes]
     reportElastic(chunk);
 }
 
+/// A cone inside the pyramid, over all directions of the deviator s: f <= (k - 1) p + sqrt(2/3 (k^2 + k + 1)) |s| - sc,
+/// and s1 <= p + sqrt(2/3) |s|. Wholly within it, no lane of a chunk needs a return.
+struct ElasticCone
+{
+    double slope, square, strength, limit; ///< k - 1, 2/3 (k^2 + k + 1), sc, T
+    double rounding; ///< share of |p| that covers the rounding of f, so that lanes near the surface take the return
+
+    explicit ElasticCone(const MohrCoulombSurface& c, double tensionLimit = std::numeric_limits<double>::infinity())
+        : slope(c.kMinus1), square(2.0 / 3 * (c.k * c.k + c.k + 1) * (1 + 1e-12)), strength(c.strength),
+          limit(tensionLimit), rounding(1e-13 * (c.k + 1))
+    {}
+};
+
+/// Do all trials lie within it? A few operations a lane, no roots; where soil flows the first lanes tell.
+template <int dim>
+bool staysElastic(const double (&trials)[stressSize<dim>][lanes], const ElasticCone& c)
+{
+    constexpr double twoThirds = 2.0 / 3 * (1 + 1e-12);
+    constexpr int together = 16;
+    for (int first = 0; first < lanes; first += together)
+    {
+        int outside = 0;
+        for (int l = first; l < first + together; ++l)
+        {
+            const double p = (trials[0][l] + trials[1][l] + trials[2][l]) * (1.0 / 3), blur = c.rounding * std::abs(p);
+            double ss = 0;
+            for (int k = 0; k < 3; ++k)
+                ss += (trials[k][l] - p) * (trials[k][l] - p);
+            for (int k = 3; k < stressSize<dim>; ++k)
+                ss += 2 * trials[k][l] * trials[k][l];
+            const double room = c.strength - c.slope * p - blur, tension = c.limit - p - blur;
+            const bool inside =
+                (room > 0) & (c.square * ss < room * room) & (tension > 0) & (twoThirds * ss < tension * tension);
+            outside += !inside;
+        }
+        if (outside > 0)
+            return false;
+    }
+    return true;
+}
+
 /// The return of all lanes; surfaceOf(lane) is the lane's surface.
 template <int dim, class SurfaceOf>
 [[gnu::always_inline]] inline void returnTrials(Chunk<dim>& chunk, const double (&trials)[stressSize<dim>][lanes],
@@ -131,7 +172,7 @@ template <int dim, class SurfaceOf>
             chunk.stress[k][i] = end[k];
         const double mean = (trial[0] + trial[1] + trial[2]) * (1.0 / 3);
         chunk.plasticWork[i] = plasticWork<nc>(start, trial, end, invTwoG, invK);
-        chunk.apexStrain[i] = r.apex ? (mean - c.apex) * c.dropsVolume : 0;
+        chunk.apexStrain[i] = (r.apex ? mean - c.apex : 0) * c.dropsVolume;
         chunk.region[i] = regionOf(r);
     }
     chunk.apexReturns = 0;
@@ -140,10 +181,12 @@ template <int dim, class SurfaceOf>
 }
 
 template <int dim, class Surface>
-void returnChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, const Surface& surface)
+void returnChunk(Chunk<dim>& chunk, const ElasticModuli& moduli, const Surface& surface, const ElasticCone& inside)
 {
     alignas(64) double trials[stressSize<dim>][lanes];
     elasticTrial<dim>(chunk, moduli, trials);
+    if (staysElastic<dim>(trials, inside))
+        return keepTrial(chunk, trials);
     const Surface c = surface;
     returnTrials(chunk, trials, moduli, [&](int) -> const Surface& { return c; });
 }

@@ -34,7 +34,7 @@ struct CutOffSurface : MohrCoulombSurface
           limit(tensionCutOff < surface.highest ? tensionCutOff : std::numeric_limits<double>::infinity()),
           corner(k * limit - strength), poisson(nu), sideways(nu / (1 - nu))
     {
-        dropsVolume *= double(!(tensionCutOff < highest));
+        dropsVolume = tensionCutOff < highest ? 0 : dropsVolume;
     }
 };
 

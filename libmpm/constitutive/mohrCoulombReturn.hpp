@@ -59,13 +59,13 @@ struct MohrCoulombSurface
     double dropsVolume;      ///< 1/K at psi = 0, else 0 [1/Pa]
 
     explicit MohrCoulombSurface(const MohrCoulombParameters& parameters);
-    /// From the slopes of friction and dilation; keepsVolume: does the flow rule (psi = 0)?
+    /// From the slopes of friction and dilation; dropsVolume as above.
     MohrCoulombSurface(const ElasticModuli& moduli, double cohesion, const Slope& friction, const Slope& dilation,
-                       bool keepsVolume);
+                       double dropsVolumeAtApex);
 };
 
 inline MohrCoulombSurface::MohrCoulombSurface(const ElasticModuli& moduli, double cohesion, const Slope& friction,
-                                              const Slope& dilation, bool keepsVolume)
+                                              const Slope& dilation, double dropsVolumeAtApex)
 {
     const double nu = moduli.poisson, stiff = 1 - 2 * nu, m = dilation.value, mMinus1 = dilation.minusOne;
     k = friction.value;
@@ -93,7 +93,7 @@ inline MohrCoulombSurface::MohrCoulombSurface(const ElasticModuli& moduli, doubl
     const bool cone = kMinus1 > 0;
     apex = cone ? strength / (cone ? kMinus1 : 1) : 0;
     highest = cone ? apex : std::numeric_limits<double>::infinity();
-    dropsVolume = double(keepsVolume) / moduli.bulk(); // a product, so that lanes need no branch
+    dropsVolume = dropsVolumeAtApex;
 }
 
 struct Principal

@@ -34,6 +34,7 @@ struct SofteningSurface
     ElasticModuli moduli;
     double from, invOver, limit;
     double cohesion[2], friction[2], dilation[2];
+    double perPressure; ///< 1/K [1/Pa]
     double growth; ///< of kappa for one |dev sigma_lost|: h/referenceLength sqrt(2/3)/(2 G) [1/Pa]
 
     SofteningSurface(const MohrCoulombParameters& p, double scale)
@@ -41,7 +42,7 @@ struct SofteningSurface
           limit(p.tensionCutOff), cohesion{p.cohesion, p.softening->cohesion},
           friction{p.frictionAngle * std::numbers::pi / 180, p.softening->frictionAngle * std::numbers::pi / 180},
           dilation{p.dilationAngle * std::numbers::pi / 180, p.softening->dilationAngle * std::numbers::pi / 180},
-          growth(scale * std::sqrt(2.0 / 3) / (2 * p.moduli.shear()))
+          perPressure(1 / p.moduli.bulk()), growth(scale * std::sqrt(2.0 / 3) / (2 * p.moduli.shear()))
     {}
 
     [[gnu::always_inline]] CutOffSurface at(double kappa) const
@@ -51,7 +52,7 @@ struct SofteningSurface
         w = w < 1 ? w : 1;
         const auto between = [w](const double(&ends)[2]) { return (1 - w) * ends[0] + w * ends[1]; };
         const double psi = between(dilation);
-        const MohrCoulombSurface shear(moduli, between(cohesion), slopeOf(between(friction)), slopeOf(psi), !(psi > 0));
+        const MohrCoulombSurface shear(moduli, between(cohesion), slopeOf(between(friction)), slopeOf(psi), psi > 0 ? 0 : perPressure);
         return CutOffSurface(shear, limit, moduli.poisson);
     }
 };

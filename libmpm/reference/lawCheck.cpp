@@ -196,14 +196,24 @@ struct Judged
 
 Judged solve(const LawCheck& check)
 {
-    if (const auto* law = dynamic_cast<const constitutive::MohrCoulomb*>(check.law.get()))
+    const auto* soil = dynamic_cast<const constitutive::MohrCoulomb*>(check.law.get());
+    const auto* cone = dynamic_cast<const constitutive::DruckerPrager*>(check.law.get());
+    if ((soil && (soil->cutsOff() || soil->usesHistory())) || (cone && cone->cone().limit < cone->cone().apex))
+        throw InputError(fmt::format("found {} with tensionCutOff or softening, allowed are laws without: their rate "
+                                     "equations are known",
+                                     check.law->name()));
+    if (cone)
+        return {integrateRates(cone->parameters(), check.start, check.path),
+                cone->substep() ? std::make_unique<constitutive::DruckerPrager>(cone->parameters()) : nullptr};
+    if (const auto* law = soil)
         return {integrateRates(law->parameters(), check.start, check.path),
                 law->substep() ? std::make_unique<constitutive::MohrCoulomb>(law->parameters()) : nullptr};
     if (const auto* law = dynamic_cast<const constitutive::VonMises*>(check.law.get()))
         return {integrateRates(VonMisesParameters{law->moduli(), law->yieldStress()}, check.start, check.path),
                 law->substep() ? std::make_unique<constitutive::VonMises>(law->moduli(), law->yieldStress()) : nullptr};
     throw InputError(fmt::format(
-        "found the law {}, allowed are mohrCoulomb and vonMises, whose rate equations are known", check.law->name()));
+        "found the law {}, allowed are mohrCoulomb, tresca, druckerPrager and vonMises, whose rate equations are known",
+        check.law->name()));
 }
 } // namespace
 

@@ -37,7 +37,8 @@
 /// A strain rate whose axes turn by w t in the material is what a step of constant velocity gradient with the spin -w
 /// does. The return map's rows take the exact strain of each step as the material sees it; sub-steps are judged as in
 /// the time step, where the strain stands still and the stress turns: give such a path as a constant rate with `spin`.
-/// Errors: InputError with file:line; Mohr-Coulomb and von Mises have rate equations.
+/// Errors: InputError with file:line; mohrCoulomb and tresca (without tensionCutOff and softening),
+/// druckerPrager (likewise) and vonMises have rate equations.
 #include "base/csvTable.hpp"
 #include "dictionary/dictionary.hpp"
 #include "reference/rateEquations.hpp"

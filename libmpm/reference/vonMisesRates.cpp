@@ -27,17 +27,24 @@ Tensor deviator(const double* s)
     return {s[0] - mean, s[1] - mean, s[2] - mean, s[3], s[4], s[5]};
 }
 
+/// f = q + slope p - strength, g = q + flow p.
+struct Cone
+{
+    double slope, flow, strength;
+};
+
 class Integration
 {
   public:
-    Integration(const VonMisesParameters& p, const Tensor& start, const StrainPath& path, const RateTolerances& t)
-        : path_(path), radius_(std::sqrt(2.0 / 3) * p.yieldStress), lame_(p.moduli.lame()), shear_(p.moduli.shear()),
-          scale_(std::max(p.yieldStress, std::sqrt(product(start, start)))), edge_(t.edge),
+    Integration(const constitutive::ElasticModuli& moduli, const Cone& cone, const Tensor& start,
+                const StrainPath& path, const RateTolerances& t)
+        : path_(path), cone_(cone), lame_(moduli.lame()), shear_(moduli.shear()), bulk_(moduli.bulk()),
+          scale_(std::max(cone.strength, std::sqrt(product(start, start)))), edge_(t.edge),
           ode_(6, t.relative, t.absolute * scale_,
                [this](double time, const double* y, double* rate) { rightHandSide(time, y, rate); })
     {
         if (yield(start.data()) > 1e-10 * scale_)
-            throw InputError(fmt::format("start stress: found |s| - R = {:g} Pa, allowed is inside the yield surface",
+            throw InputError(fmt::format("start stress: found f = {:g} Pa, allowed is inside the yield surface, f <= 0",
                                          yield(start.data())));
         y_.assign(start.begin(), start.end());
     }
@@ -58,15 +65,17 @@ class Integration
     double yield(const double* s) const
     {
         const Tensor dev = deviator(s);
-        return std::sqrt(product(dev, dev)) - radius_;
+        return std::sqrt(1.5 * product(dev, dev)) + cone_.slope * (s[0] + s[1] + s[2]) / 3 - cone_.strength;
     }
 
-    /// n : e'.
+    /// lam, of either sign.
     double loading(double t, const double* s) const
     {
-        const Tensor dev = deviator(s);
+        const Tensor dev = deviator(s), e = path_.rate(piece_, t);
         const double size = std::sqrt(product(dev, dev));
-        return size > 0 ? product(dev, path_.rate(piece_, t)) / size : 0;
+        const double along = size > 0 ? product(dev, e) / size : 0;
+        return (std::sqrt(6.0) * shear_ * along + bulk_ * cone_.slope * (e[0] + e[1] + e[2])) /
+               (3 * shear_ + bulk_ * cone_.slope * cone_.flow);
     }
 
     void rightHandSide(double t, const double* s, double* rate) const
@@ -78,9 +87,9 @@ class Integration
         if (!plastic_)
             return;
         const Tensor dev = deviator(s);
-        const double factor = 2 * shear_ * product(dev, e) / product(dev, dev);
+        const double lam = loading(t, s), shear = std::sqrt(6.0) * shear_ / std::sqrt(product(dev, dev));
         for (int k = 0; k < 6; ++k)
-            rate[k] -= factor * dev[k];
+            rate[k] -= lam * (shear * dev[k] + (k < 3 ? bulk_ * cone_.flow : 0));
     }
 
     void keep()
@@ -119,6 +128,9 @@ class Integration
             const auto stop = ode_.advance(end);
             t = ode_.time();
             y_ = ode_.state();
+            if (const Tensor dev = deviator(y_.data()); plastic_ && product(dev, dev) < 1e-12 * scale_ * scale_)
+                throw StepError(
+                    fmt::format("the path reaches the apex at t = {:g}, beyond which there are no rates", t));
             if (plastic_)
                 out_.drift = std::max(out_.drift, std::abs(yield(y_.data())) / scale_);
             if (stop != OdeSolver::Stop::event)
@@ -131,7 +143,8 @@ class Integration
     }
 
     const StrainPath& path_;
-    double radius_, lame_, shear_, scale_, edge_;
+    Cone cone_;
+    double lame_, shear_, bulk_, scale_, edge_;
     OdeSolver ode_;
     std::vector<double> y_;
     RateSolution out_;
@@ -144,6 +157,14 @@ RateSolution integrateRates(const VonMisesParameters& parameters, const Symmetri
                             const RateTolerances& tolerances)
 {
     constitutive::requireModuli(parameters.moduli);
-    return Integration(parameters, start, path, tolerances).run();
+    return Integration(parameters.moduli, {0, 0, parameters.yieldStress}, start, path, tolerances).run();
+}
+
+RateSolution integrateRates(const constitutive::DruckerPragerParameters& parameters, const SymmetricTensor& start,
+                            const StrainPath& path, const RateTolerances& tolerances)
+{
+    const constitutive::DruckerPrager law(parameters);
+    const auto& cone = law.cone();
+    return Integration(parameters.moduli, {cone.slope, cone.flow, cone.strength}, start, path, tolerances).run();
 }
 } // namespace mpm::reference

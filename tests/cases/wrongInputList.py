@@ -358,4 +358,25 @@ GROUPS = [
         solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
     ]),
+    ("Laws that soften, crack or are cones", [
+        seed("a limit of tension below nothing", law("mohrCoulomb", "cohesion 1e3; frictionAngle 30; tensionCutOff -1;")),
+        seed("a limit of tension as a word", law("druckerPrager", "cohesion 1e3; frictionAngle 30; tensionCutOff none;")),
+        seed("a match misspelt", law("druckerPrager", "cohesion 1e3; frictionAngle 30; match planestrain;")),
+        seed("a cone that dilates more than it rubs", law("druckerPrager", "cohesion 1e3; frictionAngle 30; dilationAngle 31;")),
+        seed("softening of a cone", law("druckerPrager", "cohesion 1e3; frictionAngle 30; softening { over 0.1; referenceLength 1; }")),
+        seed("friction of undrained clay", law("tresca", "cohesion 1e3; frictionAngle 30;")),
+        seed("softening that makes stronger",
+             law("tresca", "cohesion 1e3; softening { over 0.1; cohesion 2e3; referenceLength 0.1; }")),
+        seed("softening at once", law("tresca", "cohesion 1e3; softening { over 0; cohesion 200; referenceLength 0.1; }")),
+        seed("softening in a band of no known width", law("tresca", "cohesion 1e3; softening { over 0.1; cohesion 200; }")),
+        seed("a residual angle in clay", law("tresca", "cohesion 1e3; softening { over 0.1; frictionAngle 5; referenceLength 0.1; }")),
+        seed("a residual dilation beyond the residual friction",
+             law("mohrCoulomb", "cohesion 1e3; frictionAngle 30; dilationAngle 10; "
+                 "softening { over 0.1; frictionAngle 5; dilationAngle 8; referenceLength 0.1; }")),
+        seed("softening and sub-steps at once",
+             law("tresca", "cohesion 1e3; softening { over 0.1; cohesion 200; referenceLength 0.1; } substep { }")),
+        Entry("rate equations of a law that softens", "checkIntegration -law",
+              write(CHECK, "paths { a { law tresca; E 1e6; nu 0.3; cohesion 1e3; endTime 1; rate { } "
+                                  "softening { over 0.1; cohesion 200; referenceLength 0.1; } } }\n")),
+    ]),
 ]

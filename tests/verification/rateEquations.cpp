@@ -181,6 +181,39 @@ TEST_CASE("von Mises as a law: rate equations against Krieg and Krieg's closed f
                       Contains("start stress"));
 }
 
+TEST_CASE("Drucker-Prager: the return map converges to the cone's rate equations, with order 1 where axes turn")
+{
+    using constitutive::ConeMatch;
+    using constitutive::DruckerPrager;
+    const constitutive::ElasticModuli moduli{20e6, 0.3};
+    const std::vector<constitutive::DruckerPragerParameters> soils = {{moduli, 10e3, 30, 30, ConeMatch::planeStrain},
+                                                                      {moduli, 10e3, 30, 10, ConeMatch::compression},
+                                                                      {moduli, 1e3, 42, 0, ConeMatch::extension}};
+    for (const auto& soil : soils)
+        for (const Case& c : {cases[0], cases[3]})
+        {
+            const RateSolution exact = integrateRates(soil, c.start, pathOf(c));
+            const auto rows = judgeReturnMap(DruckerPrager(soil), c.start, pathOf(c), exact, {1, 256, 512});
+            INFO(DruckerPrager(soil).describe() << ", " << c.name);
+            CHECK(exact.yieldTime);
+            CHECK(exact.drift <= 1e-9);
+            CHECK(rows[0].final > 10 * rows[2].final);
+            CHECK(rows[2].final <= 2e-3);
+            CHECK(*rows[2].order == Approx(1.0).margin(0.05));
+            CHECK(std::abs(rows[2].yield) <= 1e-13);
+        }
+    // without friction: von Mises
+    const SymmetricTensor start{-50e3, -60e3, -55e3, 0, 0, 0};
+    const auto cone = integrateRates(constitutive::DruckerPragerParameters{moduli, 10e3, 0, 0, ConeMatch::compression},
+                                     start, pathOf(cases[2]));
+    const auto mises = integrateRates(VonMisesParameters{moduli, 20e3}, start, pathOf(cases[2]));
+    CHECK(distance(cone.stress.back(), mises.stress.back()) <= 1e-9 * norm(mises.stress.back()));
+    // beyond the apex there are no rates
+    CHECK_THROWS_AS(
+        integrateRates(soils[0], {}, StrainPath::table({0, 1}, {SymmetricTensor{}, {1e-2, 1e-2, 1.01e-2, 0, 0, 0}})),
+        StepError);
+}
+
 TEST_CASE("laws in sub-steps: one step of turning axes is as good as its tolerance, at a price that is told")
 {
     // the paths of `cases` whose rates are a constant rate in axes that turn: 35 % and 11 % in one plain step
@@ -353,7 +386,7 @@ TEST_CASE("what the reference cannot answer is refused")
 {
     const StrainPath path = StrainPath::table({0, 1}, {SymmetricTensor{}, SymmetricTensor{1e-3, 0, 0, 0, 0, 0}});
     CHECK_THROWS_WITH(integrateRates(paper, {1e5, 0, 0, 0, 0, 0}, path), Contains("start stress"));
-    CHECK_THROWS_WITH(integrateRates({{20e6, 0.5}, 1e3, 42, 0}, {}, path), Contains("nu"));
+    CHECK_THROWS_WITH(integrateRates(MohrCoulombParameters{{20e6, 0.5}, 1e3, 42, 0}, {}, path), Contains("nu"));
     CHECK_THROWS_WITH(StrainPath::table({0, 1, 1}, std::vector<SymmetricTensor>(3)), Contains("growing"));
     CHECK_THROWS_WITH(StrainPath::table({0}, std::vector<SymmetricTensor>(1)), Contains("at least 2"));
     CHECK_THROWS_WITH(StrainPath::harmonic({}, 0), Contains("> 0"));
