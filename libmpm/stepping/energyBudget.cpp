@@ -84,7 +84,7 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.gapWork - l.restLoss;
+           l.viscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -174,6 +174,8 @@ const std::vector<std::string>& budgetColumns()
                                                      "viscosityLoss",
                                                      "gapWork",
                                                      "restLoss",
+                                                     "contactFriction",
+                                                     "contactLoss",
                                                      "residual"};
     return columns;
 }
@@ -200,6 +202,8 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.viscosityLoss,
             l.gapWork,
             l.restLoss,
+            l.contactFriction,
+            l.contactLoss,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "stepping/chunkWork.ipp"
+#include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
 #include "stepping/rest.ipp"
@@ -19,7 +20,8 @@ namespace mpm::stepping
 {
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
-    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)), layout_(state.grid)
+    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)),
+      layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{})
 {
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
@@ -30,6 +32,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         walls_.emplace_back(wall);
         wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
     }
+    if (scene.contact)
+        contact_ = std::make_unique<nodal::Contact<dim>>(*scene.contact, particleReach());
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
@@ -50,7 +54,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         state.particles.disableAffine();
     prepareTreatment();
     prepareRest();
-    sortByStoredKeys(state);
+    if (keysNameBodies(state, layout_))
+        sortByStoredKeys(state);
+    else // the state of a run with other bodies
+        sortByPosition(state, layout_, Narrow::nodes);
 }
 
 template <int dim, class Shape>
@@ -169,6 +176,8 @@ void ExplicitStepper<dim, Shape>::buildTiles(bool look)
     }
     arranged_ = true;
     projected_ = false;
+    if (contact_)
+        sizeContact();
     choosePlaces();
     if (rests())
     {
