@@ -9,6 +9,7 @@
 /// plane
 ///     of its own: walls (nodal/wall.hpp) and loads (nodal/traction.hpp); boundaries not named are free. Absent: all
 ///     free.
+/// constant/contactProperties: case/readContact.hpp
 /// system/mpmSchemes: case/readSchemes.hpp
 #include "case/caseDirectory.hpp"
 #include "case/overrides.hpp"

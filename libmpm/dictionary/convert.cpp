@@ -107,6 +107,8 @@ template std::vector<std::string> Dictionary::get(const Entry<std::vector<std::s
 template FormulaText Dictionary::get(const Entry<FormulaText>&) const;
 template std::vector<FormulaText> Dictionary::get(const Entry<std::vector<FormulaText>>&) const;
 template std::vector<Vector3> Dictionary::get(const Entry<std::vector<Vector3>>&) const;
+template std::vector<WordGroup> Dictionary::get(const Entry<std::vector<WordGroup>>&) const;
+template std::vector<WordPair> Dictionary::get(const Entry<std::vector<WordPair>>&) const;
 
 std::string Dictionary::choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,
                                const std::optional<std::string>& fallback) const

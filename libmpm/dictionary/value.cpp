@@ -126,6 +126,25 @@ bool take(Rest& rest, Dimensions& value)
     return true;
 }
 
+bool take(Rest& rest, WordGroup& value)
+{
+    if (rest.is('('))
+        return take(rest, value.words) && !value.words.empty();
+    value.words.resize(1);
+    return take(rest, value.words.front());
+}
+
+bool take(Rest& rest, WordPair& value)
+{
+    if (!rest.is('('))
+        return false;
+    ++rest.at;
+    if (!take(rest, value.one) || !take(rest, value.other) || !take(rest, value.value) || !rest.is(')'))
+        return false;
+    ++rest.at;
+    return true;
+}
+
 std::string shownDefault(double value)
 {
     return fmt::format("{}", value);
@@ -159,5 +178,15 @@ std::string shownDefault(const Dimensions& value)
 std::string shownDefault(const Vector3& value)
 {
     return fmt::format("({} {} {})", value[0], value[1], value[2]);
+}
+
+std::string shownDefault(const WordGroup& value)
+{
+    return value.words.size() == 1 ? value.words.front() : shownDefault(value.words);
+}
+
+std::string shownDefault(const WordPair& value)
+{
+    return fmt::format("({} {} {})", value.one, value.other, value.value);
 }
 } // namespace mpm::dictionary

@@ -38,7 +38,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
             {
-                tractions_.emplace_back(load);
+                tractions_.emplace_back(load, nodal::bodyUnder(state.patches[k], state.particles, layout_));
                 tractionPatch_.push_back(k);
             }
     for (const auto& material : scene.materials)
@@ -274,8 +274,9 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
 {
-    for (const std::size_t k : tractionPatch_)
-        nodal::movePatch<dim>(state_.patches[k], state_.grid, grid_, smallestMass_, dt);
+    for (std::size_t k = 0; k < tractions_.size(); ++k)
+        nodal::movePatch<dim>(state_.patches[tractionPatch_[k]], state_.grid, grid_, tractions_[k].body(),
+                              smallestMass_, dt);
 }
 
 /// Adds the tiles' sums in the order of the tiles and stops at the first bad particle.
