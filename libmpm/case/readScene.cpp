@@ -4,6 +4,7 @@
 #include "case/gridFromDict.hpp"
 #include "case/makeStepper.hpp"
 #include "case/readBoundaries.hpp"
+#include "case/readContact.hpp"
 #include "case/readSchemes.hpp"
 #include "constitutive/law.hpp"
 
@@ -137,7 +138,7 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
         overrides.apply(name, read.back().second);
         return read.back().second;
     };
-    read.reserve(8);
+    read.reserve(16);
     takeGrid(open("system/gridDict"), state);
     const Dictionary& materialProperties = open("constant/materialProperties");
     out.scene.materials = matchMaterials(materialProperties, state);
@@ -153,6 +154,8 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
         }
     if (folder.hasFile("constant/boundaryConditions"))
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
+    if (folder.hasFile("constant/contactProperties"))
+        out.scene.contact = readContact(open("constant/contactProperties"), out.scene.materials);
     const Dictionary& schemes = open("system/mpmSchemes");
     out.shape = readSchemes(schemes, out.scene);
     out.scene.treatment = readStressTreatment(schemes, out.scene);

@@ -6,6 +6,7 @@
 /// constant/bodyForce: a force per mass by formulas (case/expressionForce.hpp); absent: none.
 /// constant/g: value (0 -9.8 0); absent: no gravity.
 /// constant/boundaryConditions: case/readBoundaries.hpp; absent: all boundaries are free.
+/// constant/contactProperties: case/readContact.hpp
 /// system/mpmSchemes: case/readSchemes.hpp
 #include "case/caseDirectory.hpp"
 #include "case/overrides.hpp"

@@ -126,6 +126,8 @@ bool Dictionary::holdsTable(const std::string& word) const
         return true;
     return rest.is('(') && rest.end - rest.at > 1 && rest.at[1].is('(');
 }
+template std::vector<WordGroup> Dictionary::get(const Entry<std::vector<WordGroup>>&) const;
+template std::vector<WordPair> Dictionary::get(const Entry<std::vector<WordPair>>&) const;
 
 std::string Dictionary::choose(const std::string& word, const std::string& help, const std::vector<Choice>& catalogue,
                                const std::optional<std::string>& fallback) const

@@ -75,6 +75,19 @@ struct TableRow
     Location where;
 };
 
+/// A word, or a list of words that stand for one thing.
+struct WordGroup
+{
+    std::vector<std::string> words;
+};
+
+/// (disc plane 0.2): a number between two.
+struct WordPair
+{
+    std::string one, other;
+    double value = 0;
+};
+
 /// Interval of allowed values; an open end excludes its value.
 struct Bound
 {
@@ -143,7 +156,7 @@ class Dictionary
     /// The value, converted, checked against dimensions and bound. T: double, Index (an integer), bool (on/off,
     /// yes/no, true/false), std::string (a word or a quoted text), Dimensions, Vector3 (three numbers),
     /// std::vector<double>, std::vector<std::string>, std::vector<Vector3>, FormulaText, std::vector<FormulaText>,
-    /// std::vector<TableRow> (the word `table` may stand before it).
+    /// std::vector<TableRow> (the word `table` may stand before it), std::vector<WordGroup>, std::vector<WordPair>.
     template <class T>
     T get(const Entry<T>& entry) const;
 

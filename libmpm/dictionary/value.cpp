@@ -144,6 +144,25 @@ bool take(Rest& rest, TableRow& value)
     return true;
 }
 
+bool take(Rest& rest, WordGroup& value)
+{
+    if (rest.is('('))
+        return take(rest, value.words) && !value.words.empty();
+    value.words.resize(1);
+    return take(rest, value.words.front());
+}
+
+bool take(Rest& rest, WordPair& value)
+{
+    if (!rest.is('('))
+        return false;
+    ++rest.at;
+    if (!take(rest, value.one) || !take(rest, value.other) || !take(rest, value.value) || !rest.is(')'))
+        return false;
+    ++rest.at;
+    return true;
+}
+
 std::string shownDefault(double value)
 {
     return fmt::format("{}", value);
@@ -182,5 +201,15 @@ std::string shownDefault(const Vector3& value)
 std::string shownDefault(const TableRow& value)
 {
     return fmt::format("({} ...)", value.at);
+}
+
+std::string shownDefault(const WordGroup& value)
+{
+    return value.words.size() == 1 ? value.words.front() : shownDefault(value.words);
+}
+
+std::string shownDefault(const WordPair& value)
+{
+    return fmt::format("({} {} {})", value.one, value.other, value.value);
 }
 } // namespace mpm::dictionary

@@ -31,6 +31,8 @@ bool take(Rest& rest, FormulaText& value); ///< a number, a word or a quoted tex
 bool take(Rest& rest, Vector3& value);     ///< (x y z)
 bool take(Rest& rest, Dimensions& value);  ///< [5 or 7 exponents]
 bool take(Rest& rest, TableRow& value);    ///< (t value) or (t (x y z))
+bool take(Rest& rest, WordGroup& value);   ///< a word or (a b c)
+bool take(Rest& rest, WordPair& value);    ///< (a b 0.5)
 
 /// `( a b c )`, or with the count that OpenFOAM writes before it: `3 ( a b c )`.
 template <class T>
@@ -64,6 +66,8 @@ std::string shownDefault(const FormulaText& value);
 std::string shownDefault(const Dimensions& value);
 std::string shownDefault(const Vector3& value);
 std::string shownDefault(const TableRow& value);
+std::string shownDefault(const WordGroup& value);
+std::string shownDefault(const WordPair& value);
 template <class T>
 std::string shownDefault(const std::vector<T>& values)
 {
@@ -77,10 +81,12 @@ std::string shownDefault(const std::vector<T>& values)
 template <class T>
 std::optional<double> outside(const Bound& bound, const T& value)
 {
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Index>)
+    if constexpr (std::is_same_v<T, WordPair>)
+        return outside(bound, value.value);
+    else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Index>)
         return bound.contains(double(value)) ? std::nullopt : std::optional<double>(double(value));
     else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, Vector3> ||
-                       std::is_same_v<T, std::vector<Vector3>>)
+                       std::is_same_v<T, std::vector<Vector3>> || std::is_same_v<T, std::vector<WordPair>>)
     {
         for (const auto& component : value)
             if (const auto bad = outside(bound, component))
@@ -132,6 +138,18 @@ template <>
 struct Type<Dimensions>
 {
     static constexpr const char *name = "dimensions", *allowed = "5 or 7 exponents [kg m s K mol A cd]", *plural = "";
+};
+template <>
+struct Type<WordGroup>
+{
+    static constexpr const char *name = "words", *allowed = "a word or a list of words",
+                                *plural = "words or lists of words";
+};
+template <>
+struct Type<WordPair>
+{
+    static constexpr const char *name = "pair", *allowed = "two words and a number (a b 0.5)",
+                                *plural = "two words and a number (a b 0.5)";
 };
 template <class T>
 struct Type<std::vector<T>>

@@ -71,15 +71,18 @@ class Damping : public NodeEffect<dim>
         double reduction; ///< phi - 1
     };
 
-    /// Change of the trial velocity of a node by walls.
+    /// Change of the trial velocity of a node by walls and contact.
     static Record byWalls(const NodeRow<dim>& row, Index i)
     {
         Record change{};
+        if (row.contact && row.carries(i))
+            for (int a = 0; a < dim; ++a)
+                change[row.trial + a] = row.contact[i][a] / row.node[i][0];
         if (row.walls->pushed.empty() || !row.carries(i))
             return change;
         const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)
-            change[row.trial + a] = (row.walls->other[n][a] + row.walls->friction[n][a]) / row.node[i][0];
+            change[row.trial + a] += (row.walls->other[n][a] + row.walls->friction[n][a]) / row.node[i][0];
         return change;
     }
 

@@ -78,6 +78,18 @@ struct NodeRow
             friction.clear();
             other.clear();
         }
+        /// What walls did before, at a row that is taken up again.
+        void add(const WallScratch& before)
+        {
+            open(before.pushed.size());
+            for (std::size_t n = 0; n < before.pushed.size(); ++n)
+                for (std::size_t a = 0; a < 3; ++a)
+                {
+                    pushed[n][a] += before.pushed[n][a];
+                    friction[n][a] += before.friction[n][a];
+                    other[n][a] += before.other[n][a];
+                }
+        }
         void open(std::size_t n)
         {
             if (!pushed.empty())
@@ -89,6 +101,7 @@ struct NodeRow
     };
     WallScratch* walls = nullptr;
     std::vector<Record>* projected = nullptr; ///< the records before the row was solved
+    const Vector3* contact = nullptr;         ///< contact[i]: impulse of contact on node i; null where there is none
 
     static constexpr int velocity = 1;    ///< first lane of v_i
     static constexpr int trial = 1 + dim; ///< first lane of f, then u

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <map>
 
 namespace mpm::nodal
 {
@@ -30,7 +32,7 @@ struct PointWeights
     double G[count][dim];
 
     PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::TileGrid& nodes,
-                 double smallestMass, Use use)
+                 int body, double smallestMass, Use use)
     {
         Index base[3] = {0, 0, 0};
         double t[3] = {0, 0, 0};
@@ -55,7 +57,7 @@ struct PointWeights
                     if (b != a)
                         G[c][a] *= (c >> b & 1) ? t[b] : 1 - t[b];
             }
-            node[c] = nodes.find(index[0], index[1], index[2]);
+            node[c] = nodes.find(index[0], index[1], index[2], body);
             if (!node[c] || !((*node[c])[0] > smallestMass))
             {
                 node[c] = nullptr;
@@ -104,6 +106,37 @@ Vector3 areaVector(const state::SurfacePatch& p, Index e)
 }
 } // namespace
 
+int bodyUnder(const state::SurfacePatch& patch, const state::Particles& p, const state::TileLayout& layout)
+{
+    if (!layout.hasBodies())
+        return 0;
+    constexpr Index most = 100; // elements that are asked
+    std::map<int, Index> votes;
+    for (Index n = 0; n < std::min(most, patch.size()); ++n)
+    {
+        const std::size_t e = std::size_t(n * patch.size() / std::min(most, patch.size()));
+        double least = std::numeric_limits<double>::infinity();
+        int body = 0;
+        for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        {
+            double square = 0;
+            for (int a = 0; a < p.dim; ++a)
+                square += (p.x[a][i] - patch.centre[a][e]) * (p.x[a][i] - patch.centre[a][e]);
+            if (square < least || (square == least && layout.bodyOf(p.material[i]) < body))
+            {
+                least = square;
+                body = layout.bodyOf(p.material[i]);
+            }
+        }
+        ++votes[body];
+    }
+    int best = 0;
+    for (const auto& [body, count] : votes)
+        if (count > votes[best])
+            best = body;
+    return best;
+}
+
 template <int dim>
 void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridBox& grid, state::TileGrid& nodes,
                             double smallestMass)
@@ -113,7 +146,7 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
     {
         const Vector3 area = areaVector<dim>(patch, e);
         const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass, Use::load);
+        const PointWeights<dim> w(patch, e, grid, nodes, body_, smallestMass, Use::load);
         for (int c = 0; c < w.count; ++c)
         {
             if (!w.node[c])
@@ -149,12 +182,12 @@ std::pair<double, double> Traction<dim>::book(double dt, double& work, Vector3& 
 }
 
 template <int dim>
-void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::TileGrid& nodes,
+void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const state::TileGrid& nodes, int body,
                double smallestMass, double dt)
 {
     for (Index e = 0; e < patch.size(); ++e)
     {
-        const PointWeights<dim> w(patch, e, grid, nodes, smallestMass, Use::motion);
+        const PointWeights<dim> w(patch, e, grid, nodes, body, smallestMass, Use::motion);
         double v[dim] = {}, L[dim][dim] = {};
         for (int c = 0; c < w.count; ++c)
             if (w.node[c])
@@ -181,6 +214,6 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 
 template class Traction<2>;
 template class Traction<3>;
-template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double, double);
-template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, double, double);
+template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, int, double, double);
+template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, int, double, double);
 } // namespace mpm::nodal

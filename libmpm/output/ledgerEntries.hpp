@@ -13,6 +13,8 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("plasticDissipation", ledger.plasticDissipation, "J");
     visit("frictionDissipation", ledger.frictionDissipation, "J");
     visit("wallLoss", ledger.wallLoss, "J");
+    visit("contactFriction", ledger.contactFriction, "J");
+    visit("contactLoss", ledger.contactLoss, "J");
     visit("splitMergeLoss", ledger.splitMergeLoss, "J");
     visit("transferLoss", ledger.transferLoss, "J");
     visit("dampingDissipation", ledger.dampingDissipation, "J");
@@ -48,8 +50,9 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("restingSteps", ledger.restingSteps, "1");
     visit("wakes", ledger.wakes, "1");
     visit("wallContacts", ledger.wallContacts, "1");
+    visit("contactNodes", ledger.contactNodes, "1");
 
-    static_assert(sizeof(state::Ledger) == 50 * 8,
+    static_assert(sizeof(state::Ledger) == 53 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

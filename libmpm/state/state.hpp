@@ -15,6 +15,8 @@ struct Ledger
     double plasticDissipation = 0;  ///< sum V sigma_mid : dEps_p
     double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
     double wallLoss = 0;       ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
+    double contactFriction = 0; ///< work of friction between bodies (nodal/contact.hpp)
+    double contactLoss = 0;     ///< work of all else that bodies do to each other: impact
     double splitMergeLoss = 0; ///< kinetic and elastic energy lost by splitting and merging
     /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on
     /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
@@ -53,6 +55,7 @@ struct Ledger
     Index restingSteps = 0;          ///< steps that particles slept through, summed over particles
     Index wakes = 0;                 ///< tiles of particles that were woken
     Index wallContacts = 0;          ///< nodes and steps at which a friction wall pressed
+    Index contactNodes = 0;          ///< nodes and steps at which two bodies pressed
 };
 
 /// A named part of the body's surface, carried with the material: segments in 2D, triangles in 3D. Element e has its

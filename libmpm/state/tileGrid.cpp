@@ -4,7 +4,8 @@
 
 namespace mpm::state
 {
-TileLayout::TileLayout(const GridBox& grid) : dim_(grid.dim), bits_(bitsOf(grid.dim))
+TileLayout::TileLayout(const GridBox& grid, std::vector<int> bodyOf)
+    : dim_(grid.dim), bits_(bitsOf(grid.dim)), bodyOf_(std::move(bodyOf))
 {
     for (int a = 0; a < dim_; ++a)
     {
@@ -13,7 +14,7 @@ TileLayout::TileLayout(const GridBox& grid) : dim_(grid.dim), bits_(bitsOf(grid.
     }
 }
 
-Index TileLayout::key(const std::array<Index, 3>& base) const
+Index TileLayout::key(const std::array<Index, 3>& base, int body) const
 {
     const Index side = Index(1) << bits_;
     std::array<Index, 3> boxes{};
@@ -24,7 +25,7 @@ Index TileLayout::key(const std::array<Index, 3>& base) const
         boxes[a] = box(i);
         inside = (inside << bits_) + (i & (side - 1));
     }
-    return (boxKey(boxes) << (dim_ * bits_)) + inside;
+    return (boxKey(boxes, body) << (dim_ * bits_)) + inside;
 }
 
 std::array<Index, 3> TileLayout::firstNode(Index key) const
@@ -52,6 +53,7 @@ void TileGrid::build(const Particles& particles, const TileLayout& layout, int b
     layout_.assign(1, layout);
     findTiles(particles, below, above);
     findBlocks();
+    findSharedBoxes();
 }
 
 void TileGrid::findTiles(const Particles& particles, int below, int above)
@@ -67,6 +69,7 @@ void TileGrid::findTiles(const Particles& particles, int below, int above)
         std::array<Index, 3> low = layout.base(particles.sortKey[std::size_t(i)]), high = low;
         Tile tile;
         tile.first = i;
+        tile.body = layout.hasBodies() ? layout.body(particles.sortKey[std::size_t(i)]) : 0;
         Index previous = -1;
         for (; i < particles.size() && layout.tile(particles.sortKey[std::size_t(i)]) == own; ++i)
         {
@@ -160,7 +163,7 @@ void TileGrid::findBlocks()
             for (Index k = low[2]; k <= high[2]; ++k)
                 for (Index j = low[1]; j <= high[1]; ++j)
                     for (Index i = low[0]; i <= high[0]; ++i)
-                        overlaps.push_back({layout.boxKey({i, j, k}), {Index(t), 0, move}});
+                        overlaps.push_back({layout.boxKey({i, j, k}, tiles_[t].body), {Index(t), 0, move}});
         }
     std::sort(overlaps.begin(), overlaps.end(), [](const Meeting& a, const Meeting& b) {
         return std::tie(a.key, a.overlap.tile, a.overlap.move) < std::tie(b.key, b.overlap.tile, b.overlap.move);
@@ -171,6 +174,7 @@ void TileGrid::findBlocks()
     {
         Block block;
         block.key = overlaps[o].key;
+        block.body = tiles_[std::size_t(overlaps[o].overlap.tile)].body;
         const NodeBox whole = nodesOf(layout, block.key);
         std::array<Index, 3> low{}, end{};
         for (; o < overlaps.size() && overlaps[o].key == block.key; ++o)
@@ -200,13 +204,34 @@ void TileGrid::findBlocks()
         nodes_[0].resize(records + records / 8);
 }
 
-Record* TileGrid::find(Index i, Index j, Index k)
+/// Blocks stand by body, then by box.
+void TileGrid::findSharedBoxes()
 {
-    const Index at = place(i, j, k);
+    sharedBoxes_.clear();
+    if (blocks_.empty() || blocks_.front().body == blocks_.back().body)
+        return;
+    const Index boxes = layout_.front().boxCount();
+    std::vector<std::pair<Index, Index>> byBox;
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        byBox.emplace_back(blocks_[b].key % boxes, Index(b));
+    std::sort(byBox.begin(), byBox.end());
+    for (std::size_t from = 0, to = 0; from < byBox.size(); from = to)
+    {
+        std::vector<Index> sharing;
+        for (; to < byBox.size() && byBox[to].first == byBox[from].first; ++to)
+            sharing.push_back(byBox[to].second);
+        if (sharing.size() > 1)
+            sharedBoxes_.push_back(std::move(sharing));
+    }
+}
+
+Record* TileGrid::find(Index i, Index j, Index k, int body)
+{
+    const Index at = place(i, j, k, body);
     return at < 0 ? nullptr : nodes_[0].data() + at;
 }
 
-Index TileGrid::place(Index i, Index j, Index k) const
+Index TileGrid::place(Index i, Index j, Index k, int body) const
 {
     if (layout_.empty())
         return -1;
@@ -218,7 +243,7 @@ Index TileGrid::place(Index i, Index j, Index k) const
             node[a] = ((node[a] % period) + period) % period;
         box[a] = layout.box(node[a]);
     }
-    const Index key = layout.boxKey(box);
+    const Index key = layout.boxKey(box, body);
     const auto found = std::lower_bound(blocks_.begin(), blocks_.end(), key,
                                         [](const Block& b, Index wanted) { return b.key < wanted; });
     if (found == blocks_.end() || found->key != key || !found->box.contains(node[0], node[1], node[2]))

@@ -9,6 +9,10 @@
 /// Where an axis is periodic, nodes are those of one period, and a window that reaches beyond it overlaps their blocks
 /// after a move by whole periods.
 ///
+/// Bodies that may move apart (nodal/contact.hpp) have tiles and blocks of their own: the body is the most significant
+/// part of a key. So a kernel sees one body at a time, and a box that two bodies reach has a block of each. With one
+/// body the keys are what they would be without.
+///
 /// Windows leave a margin of one cell for motion between two sorts; a particle that leaves its window calls for a sort
 /// (stepping/explicitStepper.hpp). Verified in tests/unit/tileGrid.cpp.
 #include "base/alignedVector.hpp"
@@ -21,16 +25,26 @@
 
 namespace mpm::state
 {
-/// Keys that order particles by tile (z, y, x), then by the first node of their support within it.
+/// Added to the key of particles made since the last sort: they stand behind all others, in tiles of their own.
+inline constexpr Index looseKey = Index(1) << 62;
+
+/// Keys that order particles by body, tile (z, y, x), then by the first node of their support within it.
 class TileLayout
 {
   public:
-    explicit TileLayout(const GridBox& grid);
+    /// bodyOf: the body of each material; empty: all are one.
+    explicit TileLayout(const GridBox& grid, std::vector<int> bodyOf = {});
 
     /// Key of a support that starts at lattice node `base`; nodes far outside the grid share the outermost tiles.
-    Index key(const std::array<Index, 3>& base) const;
+    Index key(const std::array<Index, 3>& base, int body = 0) const;
     /// The node a key stands for.
     std::array<Index, 3> base(Index key) const;
+    /// The body a key stands for.
+    int body(Index key) const { return int(tile(key & ~looseKey) / boxCount()); }
+    /// The body of a material.
+    int bodyOf(std::int32_t material) const { return bodyOf_.empty() ? 0 : bodyOf_[std::size_t(material)]; }
+    /// Have materials bodies of their own?
+    bool hasBodies() const { return !bodyOf_.empty(); }
     /// Tile of a key; tiles of loose particles (looseKey) count apart.
     Index tile(Index key) const { return key >> (dim_ * bits_); }
 
@@ -40,7 +54,12 @@ class TileLayout
     Index box(Index i) const { return (i >> bits_) + 1; }
     /// Nodes after which an axis repeats itself; 0 where it does not.
     Index period(int axis) const { return period_[std::size_t(axis)]; }
-    Index boxKey(const std::array<Index, 3>& box) const { return (box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0]; }
+    Index boxKey(const std::array<Index, 3>& box, int body = 0) const
+    {
+        return ((body * boxes_[2] + box[2]) * boxes_[1] + box[1]) * boxes_[0] + box[0];
+    }
+    /// Boxes of one body: box keys of the same place differ by multiples of it.
+    Index boxCount() const { return boxes_[0] * boxes_[1] * boxes_[2]; }
     std::array<Index, 3> firstNode(Index boxKey) const;
 
     static constexpr int bitsOf(int dim) { return dim == 2 ? 4 : 3; }
@@ -48,10 +67,8 @@ class TileLayout
   private:
     int dim_, bits_;
     std::array<Index, 3> boxes_{1, 1, 1}, period_{};
+    std::vector<int> bodyOf_;
 };
-
-/// Added to the key of particles made since the last sort: they stand behind all others, in tiles of their own.
-inline constexpr Index looseKey = Index(1) << 62;
 
 /// A box of lattice nodes, x fastest.
 struct NodeBox
@@ -93,6 +110,7 @@ struct Overlap
 struct Tile
 {
     Index first = 0, count = 0;  ///< its particles
+    int body = 0;                ///< they belong to
     NodeBox window;              ///< nodes they may reach
     std::size_t start = 0;       ///< of the window in the windows' memory, in records
     std::vector<Overlap> blocks; ///< blocks its window overlaps
@@ -102,6 +120,7 @@ struct Tile
 struct Block
 {
     Index key = 0;
+    int body = 0;
     NodeBox box;
     std::size_t start = 0;      ///< of its nodes in the nodes' memory
     std::vector<Overlap> tiles; ///< tiles whose windows overlap it, ascending
@@ -118,6 +137,8 @@ class TileGrid
 
     const std::vector<Tile>& tiles() const { return tiles_; }
     const std::vector<Block>& blocks() const { return blocks_; }
+    /// The blocks of each box that several bodies reach, by body.
+    const std::vector<std::vector<Index>>& sharedBoxes() const { return sharedBoxes_; }
     Index largestWindow() const { return largestWindow_; }
     std::size_t bytes() const
     {
@@ -141,6 +162,9 @@ class TileGrid
     {
         return nodes_[std::size_t(layer)].data() + block.start;
     }
+    /// The first node of all blocks; node n of them is at place n (Block::start).
+    Record* place(int layer) { return nodes_[std::size_t(layer)].data(); }
+    const Record* place(int layer) const { return nodes_[std::size_t(layer)].data(); }
     void openLayer() { nodes_[1].resize(nodes_[0].size()); }
 
     void setResting(Index tile, bool resting) { tiles_[std::size_t(tile)].resting = resting; }
@@ -179,12 +203,15 @@ class TileGrid
         copyRows(tile, values.data(), out, [](double value) { return value; });
     }
 
-    /// Place of a node among those of all blocks, -1 where no window reaches.
-    Index place(Index i, Index j, Index k) const;
+    /// Place of a body's node among those of all blocks, -1 where no window of the body reaches.
+    Index place(Index i, Index j, Index k, int body = 0) const;
 
-    /// The record of a node, null where no window reaches.
-    Record* find(Index i, Index j, Index k);
-    const Record* find(Index i, Index j, Index k) const { return const_cast<TileGrid*>(this)->find(i, j, k); }
+    /// The record of a body's node, null where no window of the body reaches.
+    Record* find(Index i, Index j, Index k, int body = 0);
+    const Record* find(Index i, Index j, Index k, int body = 0) const
+    {
+        return const_cast<TileGrid*>(this)->find(i, j, k, body);
+    }
 
   private:
     template <class From, class To, class Repack>
@@ -214,9 +241,11 @@ class TileGrid
     }
     void findTiles(const Particles& particles, int below, int above);
     void findBlocks();
+    void findSharedBoxes();
 
     std::vector<Tile> tiles_;
     std::vector<Block> blocks_; ///< by key
+    std::vector<std::vector<Index>> sharedBoxes_;
     AlignedVector<Record> windows_;
     std::array<AlignedVector<Record>, 2> nodes_;
     Index largestWindow_ = 0;

@@ -84,7 +84,7 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.gapWork - l.restLoss;
+           l.viscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -175,6 +175,8 @@ const std::vector<std::string>& budgetColumns()
                                                      "gapWork",
                                                      "restLoss",
                                                      "motionWork",
+                                                     "contactFriction",
+                                                     "contactLoss",
                                                      "residual"};
     return columns;
 }
@@ -202,6 +204,8 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.gapWork,
             l.restLoss,
             l.motionWork,
+            l.contactFriction,
+            l.contactLoss,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -6,6 +6,7 @@
 /// also projects the particles as it leaves them, which is the first projection of the next step. Sums are the same,
 /// bit for bit, as those of a projection on its own.
 #include "constitutive/kinematics.hpp"
+#include "nodal/contact.hpp"
 #include "nodal/damping.hpp"
 #include "nodal/gravity.hpp"
 #include "nodal/traction.hpp"
@@ -160,11 +161,27 @@ class ExplicitStepper : public Stepper
     void strainVelocities(double dt, bool secondProjection);
     void setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const;
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
+    void swapTrial(nodal::NodeRow<dim>& row) const;
+    void solveRow(nodal::NodeRow<dim>& row);
+    void finishRow(nodal::NodeRow<dim>& row);
+
+    // contact between bodies, in contactWork.ipp
+    static nodal::ParticleReach particleReach();
+    void sizeContact();
+    void meetBodies();
+    void keepRow(const nodal::NodeRow<dim>& row, const state::Block& block);
+    void finishSharedRows();
+    void bookContact(nodal::NodeSums& sums);
+    void strainTogether(bool secondProjection);
+    bool shared(const state::Block& block) const
+    {
+        return contact_ && contact_->holds(std::size_t(&block - grid_.blocks().data()));
+    }
     /// The first projection of a step. USF needs forces only where walls ask for contact before the strains.
     Project firstProjection() const
     {
-        return scene_.stressUpdate == StressUpdate::USF && walls_.empty() && !rests() ? Project::momentum
-                                                                                      : Project::forces;
+        const bool foresees = !walls_.empty() || contact_ || rests();
+        return scene_.stressUpdate == StressUpdate::USF && !foresees ? Project::momentum : Project::forces;
     }
     void particlePass(double dt, const Pass& pass);
     void sortAnew(bool look);
@@ -271,6 +288,12 @@ class ExplicitStepper : public Stepper
 
     state::TileLayout layout_;
     state::TileGrid grid_;
+    std::unique_ptr<nodal::Contact<dim>> contact_; ///< null: one body
+    struct
+    {
+        std::vector<Record> projected;                                   ///< nodes before they were solved, by place
+        std::vector<typename nodal::NodeRow<dim>::WallScratch> byWalls; ///< by place of a row's first node
+    } kept_;                                                             ///< of blocks that bodies share
     std::array<state::Column<state::Stored>, 3> domain_; ///< half lengths over h, where they follow the stretch
     std::array<state::Column<double>, 3> next_;          ///< positions at the end of the step, between two passes
     treatment::CellAverage cells_;

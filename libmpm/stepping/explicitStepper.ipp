@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "stepping/chunkWork.ipp"
+#include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
 #include "stepping/rest.ipp"
@@ -19,7 +20,8 @@ namespace mpm::stepping
 {
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
-    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)), layout_(state.grid)
+    : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)),
+      layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{})
 {
     if (scene.gravity)
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
@@ -32,11 +34,13 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         if (!wall.motion || wall.motion->stillAlong(std::size_t(wall.axis)))
             wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
     }
+    if (scene.contact)
+        contact_ = std::make_unique<nodal::Contact<dim>>(*scene.contact, particleReach());
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
             {
-                tractions_.emplace_back(load);
+                tractions_.emplace_back(load, nodal::bodyUnder(state.patches[k], state.particles, layout_));
                 tractionPatch_.push_back(k);
             }
     for (const auto& material : scene.materials)
@@ -52,7 +56,10 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         state.particles.disableAffine();
     prepareTreatment();
     prepareRest();
-    sortByStoredKeys(state);
+    if (keysNameBodies(state, layout_))
+        sortByStoredKeys(state);
+    else // the state of a run with other bodies
+        sortByPosition(state, layout_, Narrow::nodes);
 }
 
 template <int dim, class Shape>
@@ -175,6 +182,8 @@ void ExplicitStepper<dim, Shape>::buildTiles(bool look)
     }
     arranged_ = true;
     projected_ = false;
+    if (contact_)
+        sizeContact();
     choosePlaces();
     if (rests())
     {
@@ -271,8 +280,9 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
 {
-    for (const std::size_t k : tractionPatch_)
-        nodal::movePatch<dim>(state_.patches[k], state_.grid, grid_, smallestMass_, dt);
+    for (std::size_t k = 0; k < tractions_.size(); ++k)
+        nodal::movePatch<dim>(state_.patches[tractionPatch_[k]], state_.grid, grid_, tractions_[k].body(),
+                              smallestMass_, dt);
 }
 
 /// Adds the tiles' sums in the order of the tiles and stops at the first bad particle.

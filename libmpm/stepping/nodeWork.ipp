@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "stepping/explicitStepper.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -89,7 +90,27 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
             wall.pushAgain(row);
 }
 
-/// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes.
+/// (m, p, f) -> (v_i, u) by forces, body effects and walls.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
+{
+    nodal::beginRow(row);
+    for (const auto& effect : effects_)
+        effect->apply(row);
+    applyWalls(row);
+}
+
+/// (v_i, u) -> (v*, a); books what was done.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
+{
+    for (const auto& effect : effects_)
+        effect->book(row);
+    nodal::endRow(row, 1 / kick_);
+}
+
+/// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes. Nodes of blocks that bodies
+/// share wait between the two halves for what contact decides.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes()
 {
@@ -130,17 +151,23 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         if (!loaded)
             sumNodes<transfer::Forces>(row, block);
         row.dt = kick_;
-        nodal::beginRow(row);
-        for (const auto& effect : effects_)
-            effect->apply(row);
-        applyWalls(row);
-        for (const auto& effect : effects_)
-            effect->book(row);
-        nodal::endRow(row, 1 / kick_);
+        solveRow(row);
+        if (shared(block))
+            keepRow(row, block);
+        else
+            finishRow(row);
     });
     nodal::NodeSums sums;
     for (const auto& block : blockSums_)
         sums += block;
+    if (std::any_of(blocks.begin(), blocks.end(), [&](Index b) { return shared(grid_.blocks()[std::size_t(b)]); }))
+    {
+        meetBodies();
+        finishSharedRows();
+        for (const auto& block : blockSums_)
+            sums += block;
+        bookContact(sums);
+    }
     auto& ledger = state_.ledger;
     work_.ofForcesBefore -= sums.forceWorkBefore;
     work_.ofForces -= sums.forceWork;
@@ -183,17 +210,25 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             for (Index i = row.begin; i < row.end; ++i)
                 setStrainVelocity(row, i, sum[i - row.begin]);
         }
-        else if (walls_.empty() && !rests())
+        else if (walls_.empty() && !contact_ && !rests())
         {
             sumNodes<transfer::Momentum>(row, block);
             for (Index i = row.begin; i < row.end; ++i)
                 setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
         }
         else
+        {
             foreseeContact(row, block);
+            if (!shared(block))
+                swapTrial(row);
+        }
+        if (shared(block))
+            return;
         for (const auto& wall : walls_)
             wall.follow(row);
     });
+    if (contact_)
+        strainTogether(secondProjection);
 }
 
 template <int dim, class Shape>
@@ -204,8 +239,7 @@ void ExplicitStepper<dim, Shape>::setStrainVelocity(nodal::NodeRow<dim>& row, In
         row.node[i][1 + dim + a] = inverse * momentum[1 + a];
 }
 
-/// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand. Leaves its v*
-/// and v_i in the lanes as a second projection would.
+/// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block)
 {
@@ -213,11 +247,14 @@ void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const
     nodal::NodeSums unbooked;
     auto* const booked = row.sums;
     row.sums = &unbooked;
-    nodal::beginRow(row);
-    for (const auto& effect : effects_)
-        effect->apply(row);
-    applyWalls(row);
+    solveRow(row);
     row.sums = booked;
+}
+
+/// (v_i, u) -> (u, v_i), the lanes as a second projection leaves them.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::swapTrial(nodal::NodeRow<dim>& row) const
+{
     for (Index i = row.begin; i < row.end; ++i)
         for (int a = 0; a < dim; ++a)
         {

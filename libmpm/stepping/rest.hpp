@@ -20,6 +20,8 @@
 ///                    Tiles beside a tile that wakes are judged in the same step, with the nodes it brings with it
 ///     is judged      at nodes it shares with tiles awake in every step, at all its nodes at every look; in every step
 ///                    where loads act, gravity changes or something prescribed moves
+/// Tiles that share nodes with another body (nodal/contact.hpp) stay awake.
+///
 /// So stresses out of balance inside what sleeps stay below eps M, and StepReport::restingStress is the largest one
 /// left alone in the last step. tolerance = 0 would let sleep only what balances to the last bit; it is refused.
 ///

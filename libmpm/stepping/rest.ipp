@@ -96,6 +96,9 @@ void ExplicitStepper<dim, Shape>::layToRest()
     for (std::size_t t = 0; t < grid_.tiles().size(); ++t)
     {
         const auto& tile = grid_.tiles()[t];
+        const auto touched = [&](const auto& o) { return shared(grid_.blocks()[std::size_t(o.block)]); };
+        if (contact_ && std::any_of(tile.blocks.begin(), tile.blocks.end(), touched))
+            continue;
         const auto* looks = p.quietLooks.data() + tile.first;
         if (!std::all_of(looks, looks + tile.count, [&](double n) { return n >= double(scene_.rest->looks); }))
             continue;

@@ -201,6 +201,8 @@ std::string whyNoOde(const Scene& scene)
         return "picRate blends velocities once a step, which is no part of the equations of motion";
     if (scene.transfer != Transfer::FLIP)
         return "only the transfer FLIP has a limit for small steps: the others filter velocities once a step";
+    if (scene.contact)
+        return "contact between bodies is decided once a step";
     if (!scene.loads.empty())
         return fmt::format(
             "the load on '{}' acts on a surface carried by the grid, which is no unknown of the particles",

@@ -20,7 +20,7 @@ Index keyOf(const state::State& state, const state::TileLayout& layout, int supp
         const bool inside = s > -1 && s < double(grid.cells[a] + 1);
         base[a] = inside ? Index(std::floor(s - 0.5 * (supportNodes - 2))) : 0;
     }
-    return layout.key(base);
+    return layout.key(base, layout.bodyOf(state.particles.material[i]));
 }
 } // namespace
 
@@ -28,6 +28,15 @@ void sortByStoredKeys(state::State& state)
 {
     if (!state::sortByKeyAndId(state.particles))
         state.particles.padLastChunk();
+}
+
+bool keysNameBodies(const state::State& state, const state::TileLayout& layout)
+{
+    const auto& p = state.particles;
+    for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
+        if (layout.body(p.sortKey[i]) != layout.bodyOf(p.material[i]))
+            return false;
+    return true;
 }
 
 void wrapPositions(state::State& state)

@@ -14,6 +14,8 @@ void sortByPosition(state::State& state, const state::TileLayout& layout, int su
 void sortLoose(state::State& state, const state::TileLayout& layout, int supportNodes);
 /// What has left the box through a periodic side enters through the other one.
 void wrapPositions(state::State& state);
+/// Do the keys a state carries name the bodies its materials now belong to?
+bool keysNameBodies(const state::State& state, const state::TileLayout& layout);
 /// Sort by the keys the state carries (after loading).
 void sortByStoredKeys(state::State& state);
 } // namespace mpm::stepping

@@ -13,6 +13,7 @@
 /// The paper's Eq. 8 (old velocity and old stress) is forward Euler and unstable at every dt; it is not offered.
 #include "constitutive/material.hpp"
 #include "nodal/boundaries.hpp"
+#include "nodal/contactProperties.hpp"
 #include "splitting/splitParticles.hpp"
 #include "state/state.hpp"
 #include "stepping/rest.hpp"
@@ -70,6 +71,7 @@ struct Scene
     std::optional<double> relaxationTime;          ///< of viscous damping [s]
     std::vector<nodal::Wall> walls;                ///< in the order of the dictionary
     std::vector<nodal::Load> loads;
+    std::optional<nodal::ContactProperties> contact; ///< none: all materials hold together
     std::optional<splitting::Rule> splitting;
     std::shared_ptr<const BodyForce> bodyForce;
     StressUpdate stressUpdate = StressUpdate::MUSL;

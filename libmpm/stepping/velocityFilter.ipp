@@ -62,13 +62,26 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
             }
         });
     }
-    filterRow([&](nodal::NodeRow<dim>& row, const state::Block&, Record* out) {
+    const auto complete = [&](nodal::NodeRow<dim>& row, const state::Block&, Record* out) {
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
             {
                 out[i][1 + dim + a] += back * row.node[i][1 + dim + a];
-                out[i][1 + a] = row.node[i][1 + a]; // v*, which says what the walls hold
+                out[i][1 + a] = row.node[i][1 + a]; // v*, which says what walls and contact hold
             }
+    };
+    if (contact_)
+    {
+        filterRow([&](nodal::NodeRow<dim>& row, const state::Block& block, Record* out) {
+            complete(row, block, out);
+            for (Index i = row.begin; i < row.end; ++i)
+                out[i][0] = row.node[i][0];
+        });
+        contact_->follow(grid_, filterLayer);
+    }
+    filterRow([&](nodal::NodeRow<dim>& row, const state::Block& block, Record* out) {
+        if (!contact_)
+            complete(row, block, out);
         // What walls take from the filtered velocity is an impulse too, of the share that is mixed in: sum m_p v_p =
         // sum m_i times what is left here.
         const auto book = [&](double sign) {

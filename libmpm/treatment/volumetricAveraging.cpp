@@ -29,7 +29,7 @@ void CellAverage::build(const state::TileGrid& grid)
                     block.around.push_back(block.box.contains(node[0], node[1], node[2])
                                                ? std::int32_t(block.start) +
                                                      std::int32_t(block.box.offset(node[0], node[1], node[2]))
-                                               : std::int32_t(grid.place(node[0], node[1], node[2])));
+                                               : std::int32_t(grid.place(node[0], node[1], node[2], from.body)));
                 }
     }
 }

@@ -47,6 +47,13 @@ COLUMN = "geometry/column.geo"
 SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n")
 
+def contact(what, words, change=None):
+    """Two materials, and what constant/contactProperties says of them."""
+    return Entry(what, "mpmSolve", both(attribute("materials", ["soil", "plane"]),
+                                        append(MATERIAL, "plane { law linearElastic; density 1000; E 20e6; nu 0.3; }\n"),
+                                        write("constant/contactProperties", words + "\n"), *([change] if change else [])))
+
+
 def measured(*rows):
     """postProcessing/accuracyCost.csv with these rows."""
     return lambda case: errorTable.write(case, rows)
@@ -311,6 +318,24 @@ GROUPS = [
               edit(CHECK, "{ tolerance 1e-4; } ", "{ tolerance 2; } ")),
         Entry("a path without its stress", "checkIntegration -law",
               edit(CHECK, "startStress (-40e3 -60e3 -48e3 0 0 0);", "")),
+    ]),
+    ("Contact between bodies", [
+        contact("bodies nobody named", "mu 0.3;"),
+        contact("one body alone", "bodies ((soil plane)); mu 0.3;"),
+        contact("a body of a material that is not there", "bodies (soil plain); mu 0.3;"),
+        contact("a material in two bodies", "bodies (soil (plane soil)); mu 0.3;"),
+        contact("a body of nothing", "bodies (soil ()); mu 0.3;"),
+        contact("a friction coefficient below nothing", "bodies (soil); mu -0.3;"),
+        contact("friction of a body with itself", "bodies (soil plane); mu 0.3; pairs ((soil soil 0.2));"),
+        contact("friction of a pair given twice", "bodies (soil plane); mu 0.3; pairs ((soil plane 0.2) (plane soil 0.1));"),
+        contact("friction of a body that is not there", "bodies (soil plane); mu 0.3; pairs ((soil plan 0.2));"),
+        contact("a pair without its friction", "bodies (soil plane); mu 0.3; pairs ((soil plane));"),
+        contact("a pair below nothing", "bodies (soil plane); mu 0.3; pairs ((soil plane -1));"),
+        contact("a way to touch that does not exist", "bodies (soil plane); mu 0.3; detection domain;"),
+        contact("a word too many for contact", "bodies (soil plane); mu 0.3; cohesion 1e3;"),
+        Entry("bodies where there is one material", "mpmSolve", write("constant/contactProperties", "bodies (soil); mu 0.3;\n")),
+        contact("contact in a method of smooth equations", "bodies (soil plane); mu 0.3;",
+                write(SCHEMES, "shape uGIMP; transfer FLIP; timeIntegration RK4;\n")),
     ]),
     ("States", [
         Entry("no state at all", "mpmSolve", seeded=False),
