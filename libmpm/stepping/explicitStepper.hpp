@@ -33,6 +33,7 @@ class ExplicitStepper : public Stepper
     PassTimes times() const override;
     double smallestNodalMassFraction() override;
     double largestSpeed() const override;
+    double scratchBytesPerParticle() const override;
 
   private:
     using Narrow = typename Shape::Narrow;
