@@ -104,10 +104,32 @@ Effect splittingEffect()
     };
     return e;
 }
+
+Effect restEffect()
+{
+    Effect e{.name = "rest",
+             .word = "rest { ... }",
+             .file = "system/mpmSchemes",
+             .help = "tiles of particles at rest sleep until something disturbs them",
+             .fields = {"quietLooks"}};
+    e.uses = [](const EffectScene& s) { return s.scene.rest.has_value(); };
+    e.without = [](EffectScene& s) { s.scene.rest.reset(); };
+    e.neutral = [](EffectScene& s) { s.scene.rest = stepping::Rest{.tolerance = 1e-300}; };
+    e.neutralText = "tolerance 1e-300";
+    e.did = [](const EffectRun& run) -> Deed {
+        const Index slept = run.grown(&Ledger::restingSteps);
+        if (slept == 0)
+            return {0, "steps", "nothing slept", false};
+        return {double(slept), "steps",
+                fmt::format("{} steps of particles slept through, {} tiles woken, took {}", slept,
+                            run.grown(&Ledger::wakes), run.share(run.grown(&Ledger::restLoss)))};
+    };
+    return e;
+}
 } // namespace
 
 std::vector<Effect> processEffects()
 {
-    return {gravityEffect(), bodyForceEffect(), viscousDampingEffect(), splittingEffect()};
+    return {gravityEffect(), bodyForceEffect(), viscousDampingEffect(), splittingEffect(), restEffect()};
 }
 } // namespace mpm::cases

@@ -80,7 +80,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         return addPressure(ws, tile, first, count);
     const bool gathers = pass.gradient || (pass.strain && !averages());
     if (pass.velocity || gathers || pass.filter || pass.round != Round::none || movesByStrainVelocity(pass))
-        withWeights(ws, ws.x, [&](auto& w) {
+        withWeights(ws, ws.x, [&](auto& w) __attribute__((always_inline)) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
             if (pass.round != Round::none)
@@ -132,7 +132,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
             transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
     const Vectors& x = pass.moves ? ws.xNew : ws.x;
     checkInside(ws, x);
-    withWeights(ws, x, [&](auto& w) {
+    withWeights(ws, x, [&](auto& w) __attribute__((always_inline)) {
         const bool reached = w.locate(tile.window);
         lap(ws, &PassTimes::weights);
         ws.sums.stray = ws.sums.stray || !reached;
@@ -163,15 +163,23 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         if (affine())
             projectAffine<Record>(ws, w, tile, x, first, count);
         if (scene_.bodyForce)
-        {
-            alignas(64) double b[3][lanes];
-            for (int a = 0; a < dim && pass.moves; ++a) // the old positions are not needed any more
-                transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
-            scene_.bodyForce->acceleration(p, first, count, state_.time + (pass.moves ? dt : 0), b);
-            transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
-        }
+            projectBodyForce(ws, w, tile, first, count, pass.moves ? dt : 0, pass.moves);
         lap(ws, &PassTimes::toGrid);
     });
+}
+
+/// m b at the place and time of the coming step.
+template <int dim, class Shape>
+template <class W>
+void ExplicitStepper<dim, Shape>::projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first,
+                                                   int count, double dt, bool moves)
+{
+    auto& p = state_.particles;
+    alignas(64) double b[3][lanes];
+    for (int a = 0; a < dim && moves; ++a) // the old positions are not needed any more
+        transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
+    scene_.bodyForce->acceleration(p, first, count, state_.time + dt, b);
+    transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
 }
 
 /// The columns a pass reads, in about the order it reads them.
@@ -321,6 +329,15 @@ void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x) c
             ws.sums.stray = true;
 }
 
+/// alpha of a PIC rate, or of a filter that is mixed in at a rate; 0 where there is none in this step.
+template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::shareOfGridVelocity() const
+{
+    if (scene_.filterRate)
+        return filters() ? -std::expm1(-*scene_.filterRate * double(scene_.filterInterval) * kick_) : 0;
+    return scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
+}
+
 /// FLIP: v_p += dt sum N a, and with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
 /// Other transfers: v_p = sum N v*, XPIC and FMPM with v* filtered. New positions x + dt sum N v* go to ws.xNew and to
 /// next_.
@@ -328,29 +345,31 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt)
 {
     auto& p = state_.particles;
-    alignas(64) double vv[lanes] = {};
-    const double rate = scene_.filterRate ? *scene_.filterRate * double(scene_.filterInterval) : scene_.picRate;
-    const bool mixes = rate > 0 && (filters() || !scene_.filterRate);
-    const double alpha = mixes ? -std::expm1(-rate * kick_) : 0;
+    alignas(64) double vv[lanes];
+    const double alpha = shareOfGridVelocity();
     const bool flip = scene_.transfer == Transfer::FLIP || scene_.filterRate;
     for (int a = 0; a < dim; ++a)
     {
         const auto& vGrid = filters() ? ws.filtered.v[a] : ws.value.v[a];
+        const auto& moving = flip ? ws.value.v[a] : vGrid;
         if (flip)
             for (int l = 0; l < lanes; ++l)
-            {
-                const double kicked = ws.v[a][l] + kick_ * ws.value.a[a][l];
-                ws.v[a][l] = kicked + alpha * (vGrid[l] - kicked);
-            }
+                ws.v[a][l] += kick_ * ws.value.a[a][l];
         else
             std::copy_n(vGrid, lanes, ws.v[a]);
+        if (alpha > 0)
+            for (int l = 0; l < lanes; ++l)
+                ws.v[a][l] += alpha * (vGrid[l] - ws.v[a][l]);
         for (int l = 0; l < lanes; ++l)
-        {
-            vv[l] += ws.v[a][l] * ws.v[a][l];
-            ws.xNew[a][l] = ws.x[a][l] + dt * (flip ? ws.value.v[a][l] : vGrid[l]);
-        }
+            ws.xNew[a][l] = ws.x[a][l] + dt * moving[l];
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
+    }
+    for (int l = 0; l < lanes; ++l)
+    {
+        vv[l] = ws.v[0][l] * ws.v[0][l];
+        for (int a = 1; a < dim; ++a)
+            vv[l] += ws.v[a][l] * ws.v[a][l];
     }
     ws.sums.kinetic += 0.5 * transfer::sumOfProducts(ws.mass, vv);
     ws.sums.fastest = std::max(ws.sums.fastest, transfer::largest(vv));

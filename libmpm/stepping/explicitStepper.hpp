@@ -22,6 +22,17 @@
 
 namespace mpm::stepping
 {
+/// What the stepper of a shape keeps its scene in. A scene says at run time what is absent; tests/effects has one that
+/// says so at compile time, to count what absent effects cost.
+template <class Shape>
+struct SceneOf
+{
+    using Type = Scene;
+    template <class T>
+    using List = std::vector<T>;
+    static constexpr bool knowsPlasticity = true, knowsHyperelasticity = true;
+};
+
 template <int dim, class Shape>
 class ExplicitStepper : public Stepper
 {
@@ -79,6 +90,8 @@ class ExplicitStepper : public Stepper
         bool everyone = false;           ///< also those that sleep
     };
 
+    bool hyperelastic() const { return SceneOf<Shape>::knowsHyperelasticity && anyHyperelastic_; }
+    bool plastic() const { return SceneOf<Shape>::knowsPlasticity && anyPlastic_; }
     bool averages() const { return scene_.treatment.averaging.has_value(); }
     bool viscous() const { return scene_.treatment.hasViscosity(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
@@ -159,7 +172,7 @@ class ExplicitStepper : public Stepper
     template <class Change>
     void filterRow(Change&& change);
     void strainVelocities(double dt, bool secondProjection);
-    void setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const;
+    static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
     /// The first projection of a step. USF needs forces only where walls ask for contact before the strains.
     Project firstProjection() const
@@ -206,7 +219,11 @@ class ExplicitStepper : public Stepper
     void listColumns(transfer::Prefetch& ahead, const Pass& pass) const;
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
+    double shareOfGridVelocity() const;
     void advanceVelocity(Workspace& ws, Index first, int count, double dt);
+    template <class W>
+    [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
+                                            double dt, bool moves);
     template <class W>
     void projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count,
                          bool withAffine);
@@ -261,10 +278,12 @@ class ExplicitStepper : public Stepper
     [[noreturn]] void failOutside() const;
 
     state::State& state_;
-    const Scene scene_;
-    std::vector<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
-    std::vector<nodal::WallEffect<dim>> walls_;
-    std::vector<nodal::Traction<dim>> tractions_;
+    const typename SceneOf<Shape>::Type scene_;
+    template <class T>
+    using List = typename SceneOf<Shape>::template List<T>;
+    List<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
+    List<nodal::WallEffect<dim>> walls_;
+    List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
     bool wallsMove_ = false;
@@ -297,6 +316,7 @@ class ExplicitStepper : public Stepper
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
     bool anyHistory_ = false;                   ///< is there a material whose law usesHistory()?
     bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
+    bool anyPlastic_ = false;                   ///< is there a material that can yield?
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step
     bool stray_ = false;                        ///< the last projection left particles out

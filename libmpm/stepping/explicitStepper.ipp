@@ -44,6 +44,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
         anyHistory_ = anyHistory_ || material.law->usesHistory();
         anyHyperelastic_ = anyHyperelastic_ || material.law->hyperelastic();
+        anyPlastic_ = anyPlastic_ || material.law->plastic();
     }
     state.particles.keep(&state::Particles::plasticStrain, anyHistory_);
     if (affine() && !state.particles.hasAffine())
