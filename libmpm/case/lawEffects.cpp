@@ -1,11 +1,9 @@
 // Effects of material laws. Without its law a material is linearElastic with the law's moduli.
-#include "case/effectCatalogue.hpp"
+#include "case/lawVariants.hpp"
 #include "constitutive/hencky.hpp"
 #include "constitutive/linearElastic.hpp"
-#include "constitutive/mohrCoulomb.hpp"
 #include "constitutive/neoHookean.hpp"
 #include "constitutive/smallStrain.hpp"
-#include "constitutive/vonMises.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,26 +13,6 @@ namespace mpm::cases
 namespace
 {
 using namespace constitutive;
-using LawPointer = std::shared_ptr<const Law>;
-
-constexpr double endless = 1e100; ///< a strength nothing reaches, whose square is a number [Pa]
-
-ElasticModuli moduliOf(const Law& law)
-{
-    if (const auto* metal = dynamic_cast<const VonMises*>(&law))
-        return metal->moduli();
-    if (const auto* soil = dynamic_cast<const MohrCoulomb*>(&law))
-        return soil->parameters().moduli;
-    if (const auto* elastic = dynamic_cast<const LinearElastic*>(&law))
-        return elastic->moduli(); // as they were given
-    const double K = law.bulkModulus(), G = law.shearModulus();
-    return {9 * K * G / (3 * K + G), law.poissonRatio()};
-}
-
-LawPointer elasticLike(const Law& law)
-{
-    return std::make_shared<LinearElastic>(moduliOf(law));
-}
 
 bool isNamed(const Material& material, const std::string& name)
 {
@@ -97,59 +75,12 @@ Effect lawEffect(const std::string& name, const std::string& neutralText, const 
     return e;
 }
 
-/// The law with other sub-steps; the same where it has none.
-LawPointer withSubstep(const LawPointer& law, const std::optional<Substep>& substep)
-{
-    if (const auto* soil = dynamic_cast<const MohrCoulomb*>(law.get()))
-        return std::make_shared<MohrCoulomb>(soil->parameters(), substep);
-    if (const auto* metal = dynamic_cast<const VonMises*>(law.get()))
-        return std::make_shared<VonMises>(moduliOf(*metal), metal->yieldStress(), substep);
-    return law;
-}
-
-bool hasSubstep(const Material& material)
-{
-    if (const auto* soil = dynamic_cast<const MohrCoulomb*>(material.law.get()))
-        return soil->substep().has_value();
-    if (const auto* metal = dynamic_cast<const VonMises*>(material.law.get()))
-        return metal->substep().has_value();
-    return false;
-}
-
-void setSubsteps(EffectScene& s, const std::optional<Substep>& substep)
-{
-    for (auto& material : s.scene.materials)
-        material.law = withSubstep(material.law, substep);
-}
-
-Effect substepEffect()
-{
-    Effect e{.name = "substep",
-             .family = EffectFamily::law,
-             .word = "substep { tolerance ...; }",
-             .file = "constant/materialProperties",
-             .help = "return maps in as many sub-steps as their error asks for"};
-    e.uses = [](const EffectScene& s) {
-        return std::any_of(s.scene.materials.begin(), s.scene.materials.end(), hasSubstep);
-    };
-    e.without = [](EffectScene& s) { setSubsteps(s, {}); };
-    e.base = [](EffectScene& s) {
-        for (auto& material : s.scene.materials)
-            if (!isNamed(material, "mohrCoulomb") && !isNamed(material, "vonMises"))
-                material.law = std::make_shared<VonMises>(moduliOf(*material.law), endless);
-    };
-    e.neutral = [](EffectScene& s) { setSubsteps(s, Substep{1e100}); };
-    e.neutralText = "tolerance 1e100, and nothing yields";
-    e.pass = &stepping::PassTimes::law;
-    e.did = elasticDeed;
-    return e;
-}
 } // namespace
 
 std::vector<Effect> lawEffects()
 {
     const std::string other = "another stress for the same motion: it takes the place of linearElastic";
-    return {
+    std::vector<Effect> effects = {
         lawEffect("linearElastic", "itself", "", [](const auto& m) { return std::make_shared<LinearElastic>(m); },
                   elasticDeed),
         lawEffect("neoHookean", "", other, [](const auto& m) { return std::make_shared<NeoHookean>(m); }, elasticDeed),
@@ -158,12 +89,22 @@ std::vector<Effect> lawEffects()
                   elasticDeed),
         lawEffect("vonMises", "yieldStress 1e100", "",
                   [](const auto& m) { return std::make_shared<VonMises>(m, endless); }, plasticDeed),
-        lawEffect("mohrCoulomb", "cohesion 1e100", "",
+        lawEffect("tresca", "cohesion 1e100", "",
                   [](const auto& m) {
-                      return std::make_shared<MohrCoulomb>(MohrCoulombParameters{m, endless, 30, 0});
+                      return std::make_shared<Tresca>(MohrCoulombParameters{.moduli = m, .cohesion = endless});
                   },
                   plasticDeed),
-        substepEffect(),
+        lawEffect("mohrCoulomb", "cohesion 1e100", "",
+                  [](const auto& m) { return endlessSoil(LinearElastic(m)); }, plasticDeed),
+        lawEffect("druckerPrager", "cohesion 1e100", "",
+                  [](const auto& m) {
+                      return std::make_shared<DruckerPrager>(
+                          DruckerPragerParameters{.moduli = m, .cohesion = endless, .frictionAngle = 30});
+                  },
+                  plasticDeed),
     };
+    for (auto& effect : strengthEffects())
+        effects.push_back(std::move(effect));
+    return effects;
 }
 } // namespace mpm::cases

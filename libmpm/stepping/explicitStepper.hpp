@@ -30,7 +30,15 @@ struct SceneOf
     using Type = Scene;
     template <class T>
     using List = std::vector<T>;
-    static constexpr bool knowsPlasticity = true, knowsHyperelasticity = true;
+    /// Is there nothing but the plain step of FLIP with a law that is elastic in rate form?
+    static constexpr bool plain = false;
+};
+
+/// A bool that is false for the compiler already.
+struct Never
+{
+    constexpr Never(bool = false) {}
+    constexpr operator bool() const { return false; }
 };
 
 template <int dim, class Shape>
@@ -73,25 +81,39 @@ class ExplicitStepper : public Stepper
     };
 
     /// What one pass over the particles does, in this order.
+    static constexpr bool plain = SceneOf<Shape>::plain;
+    using Maybe = std::conditional_t<plain, Never, bool>;
     struct Pass
     {
-        bool pressure = false;     ///< only: add the particles' pressure to their cells
+        Maybe pressure = false;    ///< only: add the particles' pressure to their cells
         Round round = Round::none; ///< only: that of a stress relaxation
-        bool gradient = false;     ///< only: keep velocity gradients and add the volume change to the cells
+        Maybe gradient = false;    ///< only: keep velocity gradients and add the volume change to the cells
         /// Is it one of these three?
-        bool treats() const { return pressure || gradient || round != Round::none; }
+        bool treats() const { return pressure || gradient || relaxes(); }
+        bool relaxes() const { return !plain && round != Round::none; }
         bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
-        bool filter = false;             ///< gather the velocity being filtered and project it as it is
+        Maybe filter = false;            ///< gather the velocity being filtered and project it as it is
         bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions
         bool strain = false;             ///< velocity gradient, F, V and stress
         int gradientLane = 1;            ///< node lanes strains are taken from: 1: v*, 1 + dim: w
         bool moves = false;              ///< the new positions take effect
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
         bool everyone = false;           ///< also those that sleep
-    };
 
-    bool hyperelastic() const { return SceneOf<Shape>::knowsHyperelasticity && anyHyperelastic_; }
-    bool plastic() const { return SceneOf<Shape>::knowsPlasticity && anyPlastic_; }
+        // What the scene adds, asked once a pass (completed()): chunks are many.
+        bool gathers = false;           ///< the velocity gradient
+        Maybe filtered = false;         ///< take the filtered velocity
+        Maybe byStrainVelocity = false; ///< positions move with w
+        Maybe affine = false;           ///< particles carry an affine field
+        Maybe replaces = false;         ///< v_p = sum N v, in place of v_p += dt sum N a
+        Maybe mixes = false;            ///< alpha > 0
+        double alpha = 0;               ///< share of the grid's velocity
+    };
+    Pass completed(Pass pass) const;
+
+    bool hyperelastic() const { return !plain && anyHyperelastic_; }
+    bool hasHistory() const { return !plain && anyHistory_; }
+    bool plastic() const { return !plain && anyPlastic_; }
     bool averages() const { return scene_.treatment.averaging.has_value(); }
     bool viscous() const { return scene_.treatment.hasViscosity(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
@@ -99,11 +121,6 @@ class ExplicitStepper : public Stepper
     bool relaxes() const
     {
         return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
-    }
-    /// Node lanes are (v*, w) then.
-    bool movesByStrainVelocity(const Pass& pass) const
-    {
-        return scene_.moveByStrainVelocity && pass.strain && pass.moves;
     }
 
     /// Sums over one tile; added in the order of the tiles.
@@ -180,7 +197,7 @@ class ExplicitStepper : public Stepper
         return scene_.stressUpdate == StressUpdate::USF && walls_.empty() && !rests() ? Project::momentum
                                                                                       : Project::forces;
     }
-    void particlePass(double dt, const Pass& pass);
+    void particlePass(double dt, const Pass& wanted);
     void sortAnew(bool look);
     void strainPass(double dt, int gradientLane, bool moves);
     void moveSurfaces(double dt);
@@ -220,7 +237,7 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     double shareOfGridVelocity() const;
-    void advanceVelocity(Workspace& ws, Index first, int count, double dt);
+    void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
     template <class W>
     [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
                                             double dt, bool moves);

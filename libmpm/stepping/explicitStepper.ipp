@@ -232,8 +232,22 @@ void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool m
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
+auto ExplicitStepper<dim, Shape>::completed(Pass pass) const -> Pass
 {
+    pass.gathers = pass.gradient || (pass.strain && !averages());
+    pass.filtered = filters() && pass.velocity;
+    pass.byStrainVelocity = scene_.moveByStrainVelocity && pass.strain && pass.moves;
+    pass.affine = affine();
+    pass.replaces = scene_.transfer != Transfer::FLIP && !scene_.filterRate;
+    pass.alpha = shareOfGridVelocity();
+    pass.mixes = pass.alpha > 0;
+    return pass;
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& wanted)
+{
+    const Pass pass = completed(wanted);
     Clock clock(particleSeconds_);
     const bool timed = state_.step % 16 == 0;
     const auto& tiles = grid_.tiles();

@@ -133,13 +133,13 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         ws.volume[l] *= ws.J[l];
         ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
-    if (anyHistory_)
+    if (hasHistory())
         transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() || scene_.treatment.followsFlow())
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
-    if (anyHistory_)
+    if (hasHistory())
         transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     ws.ahead.some(5);
 

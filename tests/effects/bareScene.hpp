@@ -79,6 +79,6 @@ struct SceneOf<counted::OnlyElastic>
     using Type = counted::BareScene;
     template <class T>
     using List = counted::NoList<T>;
-    static constexpr bool knowsPlasticity = false, knowsHyperelasticity = false;
+    static constexpr bool plain = true;
 };
 } // namespace mpm::stepping
