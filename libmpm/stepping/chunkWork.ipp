@@ -68,7 +68,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     for (int a = 0; a < dim; ++a)
     {
         transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
-        if (!pass.treats())
+        if (!pass.treats)
             transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
     }
     if (!pass.gradient && !pass.pressure)
@@ -189,7 +189,7 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     for (int a = 0; a < dim; ++a)
     {
         ahead.add(p.x[a].data());
-        if (!pass.treats())
+        if (!pass.treats)
             ahead.add(p.v[a].data());
         if constexpr (Shape::hasDomain) // CPDI: F with it, below
             ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());

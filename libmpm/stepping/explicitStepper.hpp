@@ -88,8 +88,6 @@ class ExplicitStepper : public Stepper
         Maybe pressure = false;    ///< only: add the particles' pressure to their cells
         Round round = Round::none; ///< only: that of a stress relaxation
         Maybe gradient = false;    ///< only: keep velocity gradients and add the volume change to the cells
-        /// Is it one of these three?
-        bool treats() const { return pressure || gradient || relaxes(); }
         bool relaxes() const { return !plain && round != Round::none; }
         bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
         Maybe filter = false;            ///< gather the velocity being filtered and project it as it is
@@ -101,6 +99,7 @@ class ExplicitStepper : public Stepper
         bool everyone = false;           ///< also those that sleep
 
         // What the scene adds, asked once a pass (completed()): chunks are many.
+        Maybe treats = false;           ///< one of the first three
         bool gathers = false;           ///< the velocity gradient
         Maybe filtered = false;         ///< take the filtered velocity
         Maybe byStrainVelocity = false; ///< positions move with w

@@ -234,6 +234,7 @@ void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool m
 template <int dim, class Shape>
 auto ExplicitStepper<dim, Shape>::completed(Pass pass) const -> Pass
 {
+    pass.treats = pass.pressure || pass.gradient || pass.relaxes();
     pass.gathers = pass.gradient || (pass.strain && !averages());
     pass.filtered = filters() && pass.velocity;
     pass.byStrainVelocity = scene_.moveByStrainVelocity && pass.strain && pass.moves;

@@ -13,8 +13,9 @@ template <int dim>
 void workOfStrain(const constitutive::StressLanes<dim>& stress, const constitutive::StressLanes<dim>& dStrain,
                   double (&density)[lanes])
 {
-    std::fill_n(density, lanes, 0.0);
-    for (int k = 0; k < stressSize<dim>; ++k)
+    for (int l = 0; l < lanes; ++l)
+        density[l] = stress[0][l] * dStrain[0][l];
+    for (int k = 1; k < stressSize<dim>; ++k)
         for (int l = 0; l < lanes; ++l)
             density[l] += (k < 3 ? 1 : 2) * stress[k][l] * dStrain[k][l];
 }

@@ -178,9 +178,9 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         row.dt = dt;
         if (secondProjection)
         {
+            const nodal::NodeRow<dim> at = row; // walls see the row: a copy of it stays in registers
             HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-            sumWindows(row, block, sum);
-            const nodal::NodeRow<dim> at = row; // walls see the row: a copy stays in registers
+            sumWindows(at, block, sum);
             for (Index i = at.begin; i < at.end; ++i)
                 setStrainVelocity(at, i, sum[i - at.begin]);
         }

@@ -116,8 +116,8 @@ TEST_CASE("what a scene cannot have says why")
 TEST_CASE("pricing at the end of a run fits in, or is left out")
 {
     const auto s = block(2, StressUpdate::MUSL);
-    CHECK_FALSE(priceEffectsWithin(s.scene, s.state, s.shape, deltaT, 100, 1e-6).has_value());
-    const auto prices = priceEffectsWithin(s.scene, s.state, s.shape, deltaT, 100, 1.0);
+    CHECK_FALSE(cases::priceEffectsWithin(s.scene, s.state, s.shape, deltaT, 100, 1e-6).has_value());
+    const auto prices = cases::priceEffectsWithin(s.scene, s.state, s.shape, deltaT, 100, 1.0);
     REQUIRE(prices.has_value());
     CHECK(prices->list.size() == cases::effectsOf(s).size());
 }
