@@ -64,6 +64,7 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     written_->goOnFrom(state_, lastStored_);
     peakTime_ = firstTime_ = state_.time;
     peakKinetic_ = state_.ledger.kineticEnergy;
+    firstLedger_ = state_.ledger;
     firstStep_ = writtenStep_ = limitStep_ = state_.step;
     firstRestingSteps_ = state_.ledger.restingSteps;
 }

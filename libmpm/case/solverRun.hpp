@@ -10,6 +10,7 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/costPrediction.hpp"
+#include "case/effectPrices.hpp"
 #include "case/overrides.hpp"
 #include "case/pickSetting.hpp"
 #include "case/readScene.hpp"
@@ -29,6 +30,9 @@ namespace mpm::cases
 {
 class StrainRecorder;
 
+/// Is it option -effects? Throws InputError for options that make no sense beside it.
+bool wantsEffects(const Options& options);
+
 class SolverRun
 {
   public:
@@ -45,6 +49,9 @@ class SolverRun
     CostPrediction rehearse();
     /// The same on the screen.
     void printPrediction(const CostPrediction& prediction) const;
+    /// Option -effects: what the effects of the scene, and all others, cost at this state (case/effectPrices.hpp), as a
+    /// table on the screen, or with -markdown the page docs/effects.md. Writes nothing.
+    void printEffects() const;
     /// Begins postProcessing/history.csv and energyBudget.csv, or continues them.
     void openOutput();
     bool done() const { return runTime_->done(state_.time); }
@@ -81,6 +88,9 @@ class SolverRun
     void finishWriting();
     [[noreturn]] void failWriting(const InputError& error);
     void warnings() const;
+    EffectRun effectRun() const;
+    std::vector<const Effect*> usedEffects() const;
+    std::string deeds() const;
 
     RunProfile profile_; ///< first: its time begins with the run's
     const CaseDirectory& folder_;
@@ -104,6 +114,7 @@ class SolverRun
     std::string writingName_;
     double firstTime_ = 0, timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double stepSeconds_ = 0;
+    state::Ledger firstLedger_; ///< of the state the run began with
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
     Index firstStep_ = 0, writtenStep_ = 0, firstRestingSteps_ = 0;
     Index limitStep_ = 0; ///< the step limit_ was made anew at

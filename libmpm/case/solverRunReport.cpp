@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/processorClock.hpp"
 #include "base/version.hpp"
+#include "case/effectTables.hpp"
 #include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
 #include "case/solverRun.hpp"
@@ -146,8 +147,6 @@ void SolverRun::printPrediction(const CostPrediction& prediction) const
 void SolverRun::warnings() const
 {
     const auto& ledger = state_.ledger;
-    const auto& scene = scene_.scene;
-    const Index steps = state_.step - firstStep_;
     if (stepper_->report().cappedDomains > 0)
         line("note", fmt::format("{} particle domains are held at {} cells; split them earlier or seed finer",
                                  stepper_->report().cappedDomains, scene_.shape == "cpGIMP" ? "two" : "one"));
@@ -162,15 +161,8 @@ void SolverRun::warnings() const
         line("note",
              fmt::format("{} particles are longer than the threshold, at the cap of maxGeneration or maxParticles",
                          ledger.splitsCapped));
-    bool friction = false;
-    for (const auto& wall : scene.walls)
-        friction = friction || (wall.type == nodal::WallType::friction && wall.mu > 0);
-    if (friction && ledger.wallContacts == 0)
-        line("note", fmt::format("friction: 0 contacts in {} steps", steps));
-    if (scene.splitting && ledger.splits == 0)
-        line("note", fmt::format("splitting: 0 particles split in {} steps", steps));
-    if (scene.rest && ledger.restingSteps == firstRestingSteps_)
-        line("note", fmt::format("rest: nothing slept in {} steps", steps));
+    for (const auto& note : idleEffects(effectRun(), usedEffects()))
+        line("note", note);
 }
 
 void SolverRun::summary()
@@ -246,6 +238,7 @@ void SolverRun::summary()
         line(what, text);
     warnings();
     line("last time", lastStored_);
+    fmt::print("\n{}", deeds());
     fmt::print("\n{}", profile_.text(stepper_->times(), 2));
     if (options_.has("profile"))
         profile_.write(folder_.postProcessing() / "profile.csv", stepper_->times());

@@ -24,6 +24,7 @@ class LinearElastic : public Law
     void update(Chunk<3>& chunk) const override;
     double bulkModulus() const override { return moduli_.bulk(); }
     double shearModulus() const override { return moduli_.shear(); }
+    const ElasticModuli& moduli() const { return moduli_; }
 
   private:
     ElasticModuli moduli_;

@@ -11,7 +11,7 @@ void ExplicitStepper<dim, Shape>::projectMomentum(Workspace& ws, const W& w, con
                                                   Index first, int count, bool withAffine)
 {
     projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, [&] { ws.ahead.some(); });
-    if (withAffine && affine())
+    if (withAffine)
         projectAffine<HalfRecord>(ws, w, tile, x, first, count);
     lap(ws, &PassTimes::toGrid);
 }

@@ -32,20 +32,19 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         ws.gradients.resize(std::size_t(grid_.largestWindow()));
     }
     openTreatment(ws, tile, pass);
-    if (pass.velocity || movesByStrainVelocity(pass))
+    if (pass.velocity || pass.byStrainVelocity)
         grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
-    if ((filters() && pass.velocity) || pass.filter)
+    if (pass.filtered || pass.filter)
     {
         ws.filteredValues.resize(ws.values.size());
         grid_.copyToWindow(
             tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
     }
-    const bool gathers = pass.gradient || (pass.strain && !averages());
-    if ((gathers && pass.gradientLane == 1) || (pass.velocity && affine()))
+    if ((pass.gathers && pass.gradientLane == 1) || (pass.velocity && pass.affine))
         grid_.copyToWindow(
             tile, ws.gradients.data(), [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
             movesFiltered() ? filterLayer : 0);
-    if (gathers && pass.gradientLane != 1)
+    if (pass.gathers && pass.gradientLane != 1)
         grid_.copyToWindow(tile, ws.gradients.data(),
                            [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });
     lap(ws, &PassTimes::toParticles);
@@ -69,7 +68,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     for (int a = 0; a < dim; ++a)
     {
         transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
-        if (!pass.treats())
+        if (!pass.treats)
             transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
     }
     if (!pass.gradient && !pass.pressure)
@@ -78,29 +77,28 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
 
     if (pass.pressure)
         return addPressure(ws, tile, first, count);
-    const bool gathers = pass.gradient || (pass.strain && !averages());
-    if (pass.velocity || gathers || pass.filter || pass.round != Round::none || movesByStrainVelocity(pass))
-        withWeights(ws, ws.x, [&](auto& w) {
+    if (pass.velocity || pass.gathers || pass.filter || pass.relaxes() || pass.byStrainVelocity)
+        withWeights(ws, ws.x, [&](auto& w) __attribute__((always_inline)) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
-            if (pass.round != Round::none)
+            if (pass.relaxes())
                 return relaxationRound(ws, w, tile, first, count, pass.round);
-            if (pass.filter || (filters() && pass.velocity))
+            if (pass.filter || pass.filtered)
                 gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
             if (pass.velocity)
             {
                 gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
-                advanceVelocity(ws, first, count, dt);
-                if (affine())
+                advanceVelocity(ws, first, count, dt, pass);
+                if (pass.affine)
                     advanceAffine(ws, w, tile, first, count);
                 lap(ws, &PassTimes::toParticles);
             }
             if (pass.filter || pass.reproject)
             {
                 ws.momentum.build(ws.mass, pass.filter ? ws.filtered.v : ws.v);
-                projectMomentum(ws, w, tile, ws.x, first, count, pass.reproject);
+                projectMomentum(ws, w, tile, ws.x, first, count, pass.reproject && pass.affine);
             }
-            if (movesByStrainVelocity(pass))
+            if (pass.byStrainVelocity)
             {
                 gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch); // v* and w
                 for (int a = 0; a < dim; ++a)
@@ -111,7 +109,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 }
                 lap(ws, &PassTimes::toParticles);
             }
-            if (gathers)
+            if (pass.gathers)
             {
                 gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
                 lap(ws, &PassTimes::toParticles);
@@ -127,12 +125,12 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     if (pass.then == Project::nothing)
         return;
 
-    if (pass.moves && !pass.velocity && !movesByStrainVelocity(pass)) // an earlier pass has left the new positions
+    if (pass.moves && !pass.velocity && !pass.byStrainVelocity) // an earlier pass has left the new positions
         for (int a = 0; a < dim; ++a)
             transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
     const Vectors& x = pass.moves ? ws.xNew : ws.x;
     checkInside(ws, x);
-    withWeights(ws, x, [&](auto& w) {
+    withWeights(ws, x, [&](auto& w) __attribute__((always_inline)) {
         const bool reached = w.locate(tile.window);
         lap(ws, &PassTimes::weights);
         ws.sums.stray = ws.sums.stray || !reached;
@@ -141,7 +139,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
         if (pass.then == Project::momentum)
         {
             ws.momentum.build(ws.mass, ws.v);
-            projectMomentum(ws, w, tile, x, first, count, true);
+            projectMomentum(ws, w, tile, x, first, count, pass.affine);
             return;
         }
         if (!pass.strain)
@@ -160,18 +158,26 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                     ws.law.stress[a][l] += ws.viscous[l];
         ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
         projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
-        if (affine())
+        if (pass.affine)
             projectAffine<Record>(ws, w, tile, x, first, count);
         if (scene_.bodyForce)
-        {
-            alignas(64) double b[3][lanes];
-            for (int a = 0; a < dim && pass.moves; ++a) // the old positions are not needed any more
-                transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
-            scene_.bodyForce->acceleration(p, first, count, state_.time + (pass.moves ? dt : 0), b);
-            transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
-        }
+            projectBodyForce(ws, w, tile, first, count, pass.moves ? dt : 0, pass.moves);
         lap(ws, &PassTimes::toGrid);
     });
+}
+
+/// m b at the place and time of the coming step.
+template <int dim, class Shape>
+template <class W>
+void ExplicitStepper<dim, Shape>::projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first,
+                                                   int count, double dt, bool moves)
+{
+    auto& p = state_.particles;
+    alignas(64) double b[3][lanes];
+    for (int a = 0; a < dim && moves; ++a) // the old positions are not needed any more
+        transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
+    scene_.bodyForce->acceleration(p, first, count, state_.time + dt, b);
+    transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
 }
 
 /// The columns a pass reads, in about the order it reads them.
@@ -183,7 +189,7 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     for (int a = 0; a < dim; ++a)
     {
         ahead.add(p.x[a].data());
-        if (!pass.treats())
+        if (!pass.treats)
             ahead.add(p.v[a].data());
         if constexpr (Shape::hasDomain) // CPDI: F with it, below
             ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());
@@ -321,36 +327,45 @@ void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x) c
             ws.sums.stray = true;
 }
 
+/// alpha of a PIC rate, or of a filter that is mixed in at a rate; 0 where there is none in this step.
+template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::shareOfGridVelocity() const
+{
+    if (scene_.filterRate)
+        return filters() ? -std::expm1(-*scene_.filterRate * double(scene_.filterInterval) * kick_) : 0;
+    return scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
+}
+
 /// FLIP: v_p += dt sum N a, and with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
 /// Other transfers: v_p = sum N v*, XPIC and FMPM with v* filtered. New positions x + dt sum N v* go to ws.xNew and to
 /// next_.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt)
+void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass)
 {
     auto& p = state_.particles;
-    alignas(64) double vv[lanes] = {};
-    const double rate = scene_.filterRate ? *scene_.filterRate * double(scene_.filterInterval) : scene_.picRate;
-    const bool mixes = rate > 0 && (filters() || !scene_.filterRate);
-    const double alpha = mixes ? -std::expm1(-rate * kick_) : 0;
-    const bool flip = scene_.transfer == Transfer::FLIP || scene_.filterRate;
+    alignas(64) double vv[lanes];
     for (int a = 0; a < dim; ++a)
     {
-        const auto& vGrid = filters() ? ws.filtered.v[a] : ws.value.v[a];
-        if (flip)
-            for (int l = 0; l < lanes; ++l)
-            {
-                const double kicked = ws.v[a][l] + kick_ * ws.value.a[a][l];
-                ws.v[a][l] = kicked + alpha * (vGrid[l] - kicked);
-            }
-        else
+        const auto& vGrid = pass.filtered ? ws.filtered.v[a] : ws.value.v[a];
+        const auto& moving = pass.replaces ? vGrid : ws.value.v[a];
+        if (pass.replaces)
             std::copy_n(vGrid, lanes, ws.v[a]);
+        else
+            for (int l = 0; l < lanes; ++l)
+                ws.v[a][l] += kick_ * ws.value.a[a][l];
+        if (pass.mixes)
+            for (int l = 0; l < lanes; ++l)
+                ws.v[a][l] += pass.alpha * (vGrid[l] - ws.v[a][l]);
         for (int l = 0; l < lanes; ++l)
-        {
-            vv[l] += ws.v[a][l] * ws.v[a][l];
-            ws.xNew[a][l] = ws.x[a][l] + dt * (flip ? ws.value.v[a][l] : vGrid[l]);
-        }
+            ws.xNew[a][l] = ws.x[a][l] + dt * moving[l];
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
+    }
+    for (int l = 0; l < lanes; ++l)
+    {
+        vv[l] = ws.v[0][l] * ws.v[0][l];
+        for (int a = 1; a < dim; ++a)
+            vv[l] += ws.v[a][l] * ws.v[a][l];
     }
     ws.sums.kinetic += 0.5 * transfer::sumOfProducts(ws.mass, vv);
     ws.sums.fastest = std::max(ws.sums.fastest, transfer::largest(vv));

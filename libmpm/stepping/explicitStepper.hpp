@@ -23,6 +23,25 @@
 
 namespace mpm::stepping
 {
+/// What the stepper of a shape keeps its scene in. A scene says at run time what is absent; tests/effects has one that
+/// says so at compile time, to count what absent effects cost.
+template <class Shape>
+struct SceneOf
+{
+    using Type = Scene;
+    template <class T>
+    using List = std::vector<T>;
+    /// Is there nothing but the plain step of FLIP with a law that is elastic in rate form?
+    static constexpr bool plain = false;
+};
+
+/// A bool that is false for the compiler already.
+struct Never
+{
+    constexpr Never(bool = false) {}
+    constexpr operator bool() const { return false; }
+};
+
 template <int dim, class Shape>
 class ExplicitStepper : public Stepper
 {
@@ -34,6 +53,7 @@ class ExplicitStepper : public Stepper
     PassTimes times() const override;
     double smallestNodalMassFraction() override;
     double largestSpeed() const override;
+    double scratchBytesPerParticle() const override;
 
   private:
     using Narrow = typename Shape::Narrow;
@@ -62,23 +82,38 @@ class ExplicitStepper : public Stepper
     };
 
     /// What one pass over the particles does, in this order.
+    static constexpr bool plain = SceneOf<Shape>::plain;
+    using Maybe = std::conditional_t<plain, Never, bool>;
     struct Pass
     {
-        bool pressure = false;     ///< only: add the particles' pressure to their cells
+        Maybe pressure = false;    ///< only: add the particles' pressure to their cells
         Round round = Round::none; ///< only: that of a stress relaxation
-        bool gradient = false;     ///< only: keep velocity gradients and add the volume change to the cells
-        /// Is it one of these three?
-        bool treats() const { return pressure || gradient || round != Round::none; }
+        Maybe gradient = false;    ///< only: keep velocity gradients and add the volume change to the cells
+        bool relaxes() const { return !plain && round != Round::none; }
         bool velocity = false;           ///< v from v* and a, and new positions x + dt v*
-        bool filter = false;             ///< gather the velocity being filtered and project it as it is
+        Maybe filter = false;            ///< gather the velocity being filtered and project it as it is
         bool reproject = false;          ///< project m v of the updated particles with the weights of the old positions
         bool strain = false;             ///< velocity gradient, F, V and stress
         int gradientLane = 1;            ///< node lanes strains are taken from: 1: v*, 1 + dim: w
         bool moves = false;              ///< the new positions take effect
         Project then = Project::nothing; ///< project the particles as the pass leaves them, for the next equations
         bool everyone = false;           ///< also those that sleep
-    };
 
+        // What the scene adds, asked once a pass (completed()): chunks are many.
+        Maybe treats = false;           ///< one of the first three
+        bool gathers = false;           ///< the velocity gradient
+        Maybe filtered = false;         ///< take the filtered velocity
+        Maybe byStrainVelocity = false; ///< positions move with w
+        Maybe affine = false;           ///< particles carry an affine field
+        Maybe replaces = false;         ///< v_p = sum N v, in place of v_p += dt sum N a
+        Maybe mixes = false;            ///< alpha > 0
+        double alpha = 0;               ///< share of the grid's velocity
+    };
+    Pass completed(Pass pass) const;
+
+    bool hyperelastic() const { return !plain && anyHyperelastic_; }
+    bool hasHistory() const { return !plain && anyHistory_; }
+    bool plastic() const { return !plain && anyPlastic_; }
     bool averages() const { return scene_.treatment.averaging.has_value(); }
     bool viscous() const { return scene_.treatment.hasViscosity(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
@@ -86,11 +121,6 @@ class ExplicitStepper : public Stepper
     bool relaxes() const
     {
         return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
-    }
-    /// Node lanes are (v*, w) then.
-    bool movesByStrainVelocity(const Pass& pass) const
-    {
-        return scene_.moveByStrainVelocity && pass.strain && pass.moves;
     }
 
     /// Sums over one tile; added in the order of the tiles.
@@ -159,7 +189,7 @@ class ExplicitStepper : public Stepper
     template <class Change>
     void filterRow(Change&& change);
     void strainVelocities(double dt, bool secondProjection);
-    void setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const;
+    static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
     void swapTrial(nodal::NodeRow<dim>& row) const;
     void solveRow(nodal::NodeRow<dim>& row);
@@ -183,7 +213,7 @@ class ExplicitStepper : public Stepper
         const bool foresees = !walls_.empty() || contact_ || rests();
         return scene_.stressUpdate == StressUpdate::USF && !foresees ? Project::momentum : Project::forces;
     }
-    void particlePass(double dt, const Pass& pass);
+    void particlePass(double dt, const Pass& wanted);
     void sortAnew(bool look);
     void strainPass(double dt, int gradientLane, bool moves);
     void moveSurfaces(double dt);
@@ -222,7 +252,11 @@ class ExplicitStepper : public Stepper
     void listColumns(transfer::Prefetch& ahead, const Pass& pass) const;
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
-    void advanceVelocity(Workspace& ws, Index first, int count, double dt);
+    double shareOfGridVelocity() const;
+    void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
+    template <class W>
+    [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
+                                            double dt, bool moves);
     template <class W>
     void projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count,
                          bool withAffine);
@@ -277,10 +311,12 @@ class ExplicitStepper : public Stepper
     [[noreturn]] void failOutside() const;
 
     state::State& state_;
-    const Scene scene_;
-    std::vector<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
-    std::vector<nodal::WallEffect<dim>> walls_;
-    std::vector<nodal::Traction<dim>> tractions_;
+    const typename SceneOf<Shape>::Type scene_;
+    template <class T>
+    using List = typename SceneOf<Shape>::template List<T>;
+    List<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
+    List<nodal::WallEffect<dim>> walls_;
+    List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
     bool wallsMove_ = false;
@@ -319,6 +355,7 @@ class ExplicitStepper : public Stepper
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
     bool anyHistory_ = false;                   ///< is there a material whose law usesHistory()?
     bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
+    bool anyPlastic_ = false;                   ///< is there a material that can yield?
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step
     bool stray_ = false;                        ///< the last projection left particles out

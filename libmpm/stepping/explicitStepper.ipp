@@ -48,6 +48,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
         anyHistory_ = anyHistory_ || material.law->usesHistory();
         anyHyperelastic_ = anyHyperelastic_ || material.law->hyperelastic();
+        anyPlastic_ = anyPlastic_ || material.law->plastic();
     }
     state.particles.keep(&state::Particles::plasticStrain, anyHistory_);
     if (affine() && !state.particles.hasAffine())
@@ -240,8 +241,23 @@ void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool m
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& pass)
+auto ExplicitStepper<dim, Shape>::completed(Pass pass) const -> Pass
 {
+    pass.treats = pass.pressure || pass.gradient || pass.relaxes();
+    pass.gathers = pass.gradient || (pass.strain && !averages());
+    pass.filtered = filters() && pass.velocity;
+    pass.byStrainVelocity = scene_.moveByStrainVelocity && pass.strain && pass.moves;
+    pass.affine = affine();
+    pass.replaces = scene_.transfer != Transfer::FLIP && !scene_.filterRate;
+    pass.alpha = shareOfGridVelocity();
+    pass.mixes = pass.alpha > 0;
+    return pass;
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& wanted)
+{
+    const Pass pass = completed(wanted);
     Clock clock(particleSeconds_);
     const bool timed = state_.step % 16 == 0;
     const auto& tiles = grid_.tiles();

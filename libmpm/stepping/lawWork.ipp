@@ -13,8 +13,9 @@ template <int dim>
 void workOfStrain(const constitutive::StressLanes<dim>& stress, const constitutive::StressLanes<dim>& dStrain,
                   double (&density)[lanes])
 {
-    std::fill_n(density, lanes, 0.0);
-    for (int k = 0; k < stressSize<dim>; ++k)
+    for (int l = 0; l < lanes; ++l)
+        density[l] = stress[0][l] * dStrain[0][l];
+    for (int k = 1; k < stressSize<dim>; ++k)
         for (int l = 0; l < lanes; ++l)
             density[l] += (k < 3 ? 1 : 2) * stress[k][l] * dStrain[k][l];
 }
@@ -115,7 +116,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     alignas(64) double energyBefore[lanes], energy[lanes], workTurned[lanes], workAfter[lanes];
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
     ws.ahead.some(4);
-    if (anyHyperelastic_)
+    if (hyperelastic())
         storedEnergy(ws, first, count, ws.storedBefore);
     constitutive::advanceDeformation(ws.L, dt, ws.F);
     ws.ahead.some(4);
@@ -133,13 +134,13 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         ws.volume[l] *= ws.J[l];
         ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
-    if (anyHistory_)
+    if (hasHistory())
         transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() || scene_.treatment.followsFlow())
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
-    if (anyHistory_)
+    if (hasHistory())
         transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     ws.ahead.some(5);
 
@@ -159,9 +160,10 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
 
     alignas(64) double stiffJ[lanes];
-    for (int l = 0; l < lanes; ++l)
+    std::copy_n(ws.J, lanes, stiffJ);
+    for (int l = 0; l < lanes && plastic(); ++l)
         stiffJ[l] = chunk.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
-    if (anyHyperelastic_)
+    if (hyperelastic())
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
             alignas(64) double own[lanes];
             law.waveFactor(ws.F, own);
@@ -186,7 +188,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     if (spreads)
         loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
-    if (anyHyperelastic_)
+    if (hyperelastic())
     {
         storedEnergy(ws, first, count, ws.stored); // of F as it is stored
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
@@ -203,7 +205,7 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
                           0.25 * (ws.volumeBefore[l] + ws.volume[l]) * (workTurned[l] + workAfter[l]) -
                           0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
     }
-    if (anyHyperelastic_)
+    if (hyperelastic())
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
             for (int l = 0; l < lanes; ++l)
                 if (mine(l))
@@ -212,10 +214,13 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
                         0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
         });
     sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
-    sums.plasticWork += transfer::sumOfProducts(ws.volumeMiddle, chunk.plasticWork);
-    sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
-    sums.apexReturns += chunk.apexReturns;
-    sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
+    if (plastic())
+    {
+        sums.plasticWork += transfer::sumOfProducts(ws.volumeMiddle, chunk.plasticWork);
+        sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
+        sums.apexReturns += chunk.apexReturns;
+        sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
+    }
     if constexpr (Shape::followsStretch || hasCorners)
         updateDomains(ws, first, count);
 }

@@ -205,10 +205,11 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         row.dt = dt;
         if (secondProjection)
         {
+            const nodal::NodeRow<dim> at = row; // walls see the row: a copy of it stays in registers
             HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-            sumWindows(row, block, sum);
-            for (Index i = row.begin; i < row.end; ++i)
-                setStrainVelocity(row, i, sum[i - row.begin]);
+            sumWindows(at, block, sum);
+            for (Index i = at.begin; i < at.end; ++i)
+                setStrainVelocity(at, i, sum[i - at.begin]);
         }
         else if (walls_.empty() && !contact_ && !rests())
         {
@@ -232,7 +233,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::setStrainVelocity(nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum) const
+void ExplicitStepper<dim, Shape>::setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum)
 {
     const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
     for (int a = 0; a < dim; ++a)

@@ -88,6 +88,21 @@ double ExplicitStepper<dim, Shape>::wallSpeed() const
 }
 
 template <int dim, class Shape>
+double ExplicitStepper<dim, Shape>::scratchBytesPerParticle() const
+{
+    double bytes = 0;
+    const auto add = [&](const auto& columns) {
+        for (const auto& column : columns)
+            bytes += column.empty() ? 0 : double(sizeof(column[0]));
+    };
+    add(domain_);
+    add(next_);
+    add(gradient_);
+    add(correction_);
+    return bytes;
+}
+
+template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::fail(Index particle, const std::string& what) const
 {
     const auto& p = state_.particles;

@@ -146,6 +146,8 @@ class Stepper
     virtual double smallestNodalMassFraction() = 0;
     /// max |v_p| of the particles as they are, and of walls in motion [m/s].
     virtual double largestSpeed() const = 0;
+    /// Of columns the stepper keeps for itself [bytes].
+    virtual double scratchBytesPerParticle() const { return 0; }
 };
 
 /// "MUSL, FLIP", "USL, XPIC of order 2, staggered start", "RK4".

@@ -105,7 +105,7 @@ void ExplicitStepper<dim, Shape>::relaxStress(Workspace& ws, Index first, int co
         share[l] = treatment::relaxedShare(*scene_.treatment.relaxation, relaxationRate_,
                                            flow[l] * std::sqrt(square) / dt, dt);
     }
-    if (anyHyperelastic_)
+    if (hyperelastic())
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
             for (int l = 0; l < lanes; ++l)
                 share[l] = mine(l) ? 0 : share[l];

@@ -105,7 +105,7 @@ void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, in
             const double elastic = (treatment::meanStress(chunk, l) - mean[l]) * 2 * ws.halfOverBulk[l];
             mean[l] = (trace - elastic) / dt;
         }
-        if (anyHyperelastic_)
+        if (hyperelastic())
             forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
                 for (int l = 0; l < lanes; ++l)
                     mean[l] = mine(l) ? 0 : mean[l];

@@ -8,7 +8,9 @@ int main(int argc, char** argv)
 {
     using namespace mpm;
     cases::ApplicationInfo info{"mpmSolve", "large deformation of solids by the material point method"};
-    info.options = {{"profile", "", "write postProcessing/profile.csv: where the time went, pass by pass"},
+    info.options = {{"effects", "", "what each effect costs here, in use or off: measured, nothing written"},
+                    {"markdown", "", "with -effects: the page docs/effects.md"},
+                    {"profile", "", "write postProcessing/profile.csv: where the time went, pass by pass"},
                     {"withinTime", "SECONDS", "run the most accurate setting that is predicted to take no longer"},
                     {"withinError", "ERROR", "run the cheapest setting with an error no larger"},
                     {"errorMeasure", "NAME", "which error of postProcessing/accuracyCost.csv (default: the first)"}};
@@ -29,6 +31,9 @@ int main(int argc, char** argv)
         "and\n"
         "run with them; the dictionaries stay as they are, and a run that goes on keeps them. Cells and particles are\n"
         "those of the seeded state.\n"
+        "-effects steps copies of the state with and without every effect for a few seconds, and says what share of a "
+        "step\n"
+        "and how many bytes a particle each takes, and what those that are off would add.\n"
         "-overwrite with startFrom firstTime or startTime removes stored times after the start.\n"
         "Ctrl-C (SIGINT), SIGTERM and SIGHUP: the step is finished and its state written, so that startFrom "
         "latestTime\n"
@@ -37,6 +42,8 @@ int main(int argc, char** argv)
         "3 a mistake of ours; 130, 143, 129 stopped by SIGINT, SIGTERM, SIGHUP.";
     return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
         const cases::CaseDirectory folder(options.caseFolder);
+        if (cases::wantsEffects(options))
+            return cases::SolverRun(folder, options).printEffects(), 0;
         const cases::CaseLock lock(options, "mpmSolve");
         const auto picked = cases::wantsPick(options) ? cases::pickSetting(folder, options) : cases::Overrides();
         cases::SolverRun run(folder, options, picked);
