@@ -296,7 +296,7 @@ bool naiveKnows(const std::string& shape)
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene)
 {
-    if (scene.splitting || scene.relaxationTime || scene.bodyForce || !scene.loads.empty() ||
+    if (scene.splitting || scene.relaxationTime || scene.localDamping || scene.merging || scene.bulkViscosity || scene.bodyForce || !scene.loads.empty() ||
         scene.materials.size() != 1)
         throw InputError(
             "the naive step knows one material, no splitting, damping, tractions or prescribed body forces");

@@ -23,6 +23,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("relaxationLoss", ledger.relaxationLoss, "J");
     visit("averagingLoss", ledger.averagingLoss, "J");
     visit("viscosityLoss", ledger.viscosityLoss, "J");
+    visit("bulkViscosityLoss", ledger.bulkViscosityLoss, "J");
     visit("gapWork", ledger.gapWork, "J");
     visit("restLoss", ledger.restLoss, "J");
     visit("gravityWork", ledger.gravityWork, "J");
@@ -43,6 +44,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
     visit("apexReturns", ledger.apexReturns, "1");
     visit("splits", ledger.splits, "1");
+    visit("merges", ledger.merges, "1");
     visit("splitsPutOff", ledger.splitsPutOff, "1");
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("restingSteps", ledger.restingSteps, "1");

@@ -201,6 +201,12 @@ std::string whyNoOde(const Scene& scene)
         return "picRate blends velocities once a step, which is no part of the equations of motion";
     if (scene.transfer != Transfer::FLIP)
         return "only the transfer FLIP has a limit for small steps: the others filter velocities once a step";
+    if (scene.bulkViscosity)
+        return "bulk viscosity begins where compression does, with a kink of the right-hand side";
+    if (scene.merging)
+        return "merging changes the number of unknowns";
+    if (scene.localDamping)
+        return "local damping turns round with the velocity, where the right-hand side jumps";
     if (!scene.loads.empty())
         return fmt::format(
             "the load on '{}' acts on a surface carried by the grid, which is no unknown of the particles",

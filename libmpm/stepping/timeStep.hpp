@@ -19,6 +19,8 @@
 /// sqrt(k). An affine field (APIC, TPIC) is lost on no second projection, so that USF and MUSL bear less, 0.75 (0.62 in
 /// 3D), and with hat functions their bound follows the mass, as that of USL does.
 ///
+/// Bulk viscosity takes the limit down by a factor of its own (treatment/bulkViscosity.hpp).
+///
 /// Runge-Kutta steps have bounds of their own (rungeKutta.hpp).
 ///
 /// The linearised step knows no |v|. Impacts do: bodies close in at up to 2 |v|, and every cell face a particle crosses
@@ -45,6 +47,7 @@ struct StabilityLimit
     bool hats = false;    ///< hat functions: the second factor in |v|
     double waveSpeed = 0; ///< c_p [m/s]
     double speed = 0;     ///< |v| [m/s]
+    treatment::BulkViscosity viscosity{0, 0}; ///< of the scene, takes it down
     double deltaT = 0;    ///< bound of dt [s]
 };
 
