@@ -92,6 +92,8 @@ stepping::Rest readRest(const Dictionary& all, const Dictionary& d, const steppi
     if (scene.bodyForce)
         all.fail("rest", "it beside constant/bodyForce", "one of the two: a force by formulas may disturb what sleeps");
     return rest;
+}
+
 /// Twice the threshold is what merged edges may have: over that of splitting they would be split again.
 void readMerging(const Dictionary& d, stepping::Scene& scene)
 {
