@@ -34,14 +34,14 @@ void readRelaxation(const Dictionary& d, RelaxationRule& rule)
                              {"kinetic", "all velocity, whenever the kinetic energy passes a maximum"}},
                             "local") == "kinetic";
     if (!rule.kinetic)
-        rule.coefficient = d.get<double>(
-            {"coefficient", "share of the net force", unit::none, {0, 1, true, true}, rule.coefficient});
+        rule.coefficient =
+            d.get<double>({"coefficient", "share of the net force", unit::none, {0, 1, true, true}, rule.coefficient});
     else if (d.found("coefficient"))
         d.fail("coefficient", "it with damping kinetic", "it with damping local");
     rule.tolerance =
         d.get<double>({"tolerance", "net over applied forces at rest", unit::none, Bound::positive(), rule.tolerance});
-    rule.kineticTolerance = d.get<double>(
-        {"kineticTolerance", "kinetic over elastic energy at rest", unit::none, Bound::positive(), rule.kineticTolerance});
+    rule.kineticTolerance = d.get<double>({"kineticTolerance", "kinetic over elastic energy at rest", unit::none,
+                                           Bound::positive(), rule.kineticTolerance});
 }
 
 RelaxationRule readRule(const Dictionary& d)
@@ -126,9 +126,10 @@ void GravityLoading::refuse(const Options& options) const
 {
     const auto file = folder_.statePath(timeName_).lexically_normal().string();
     if (state_.step > 0 || state_.particles.size() == 0)
-        throw InputError({file}, fmt::format("found {} particles after {} steps; allowed: a state of seedParticles, which "
-                                             "no run has changed",
-                                             state_.particles.size(), state_.step));
+        throw InputError({file},
+                         fmt::format("found {} particles after {} steps; allowed: a state of seedParticles, which "
+                                     "no run has changed",
+                                     state_.particles.size(), state_.step));
     if (state_.provenance.count("gravityLoading") && !options.overwrite)
         throw InputError({file}, "is loaded already; -overwrite loads it once more");
     const auto& s = scene_.scene;
@@ -138,16 +139,18 @@ void GravityLoading::refuse(const Options& options) const
                          "pressure in constant/boundaryConditions");
     for (const auto& material : s.materials)
         if (rule_.keepPositions && material.law->hyperelastic())
-            throw InputError(fmt::format("{}: keepPositions: found yes with material '{}', law {}, whose stress is that of "
-                                         "its deformation; allowed: no",
-                                         dictName, material.name, material.law->name()));
+            throw InputError(
+                fmt::format("{}: keepPositions: found yes with material '{}', law {}, whose stress is that of "
+                            "its deformation; allowed: no",
+                            dictName, material.name, material.law->name()));
 }
 
 void GravityLoading::banner() const
 {
     const auto& s = scene_.scene;
     fmt::print("gravityLoading, libmpm {} ({})\n", projectVersion(), gitRevision());
-    line("particles", fmt::format("{} in {} dimensions, time {}", state_.particles.size(), state_.particles.dim, timeName_));
+    line("particles",
+         fmt::format("{} in {} dimensions, time {}", state_.particles.size(), state_.particles.dim, timeName_));
     line("method", scene_.shape + ", " + stepping::methodText(s));
     for (const auto& material : s.materials)
         line("material", fmt::format("{}: {}", material.name, material.law->describe()));
@@ -283,7 +286,8 @@ void GravityLoading::giveUp(double ratio) const
 {
     throw StepError(fmt::format(
         "found no equilibrium in {} steps ({:.4g} s): net forces are {:.3g} of those applied (tolerance {:g}), kinetic "
-        "energy {:.3g} of the elastic (tolerance {:g}); the body has moved by up to {:.3g} m. It may have none (a slope "
+        "energy {:.3g} of the elastic (tolerance {:g}); the body has moved by up to {:.3g} m. It may have none (a "
+        "slope "
         "that fails), or needs more maxSteps. Nothing was written",
         steps_, time_, ratio, rule_.tolerance, strain_ > 0 ? kinetic_ / strain_ : 0, rule_.kineticTolerance,
         std::max(displacement_, largestDisplacement())));
@@ -293,8 +297,8 @@ void GravityLoading::report() const
 {
     const auto& p = state_.particles;
     fmt::print("\nAt rest after {} steps in {} pass{}\n", steps_, passes_, passes_ == 1 ? "" : "es");
-    line("net force", fmt::format("{:.3g} of the load (at the start {:.3g}), tolerance {:g}", ratio_, firstRatio_,
-                                  rule_.tolerance));
+    line("net force",
+         fmt::format("{:.3g} of the load (at the start {:.3g}), tolerance {:g}", ratio_, firstRatio_, rule_.tolerance));
     line("displacement", fmt::format("{:.4g} m at most{}", displacement_, rule_.keepPositions ? ", taken back" : ""));
     const int vertical = verticalAxis(scene_.scene, p.dim);
     std::string text;
@@ -302,12 +306,12 @@ void GravityLoading::report() const
     const auto ratios = stressRatios(p, vertical);
     for (int a = 0; a < p.dim; ++a)
         if (a != vertical && n < ratios.size())
-            text += fmt::format("{}sigma_{}{} = {:.4f} sigma_{}{}", text.empty() ? "" : ", ", axisNames[a], axisNames[a],
-                                ratios[n++], axisNames[vertical], axisNames[vertical]);
+            text += fmt::format("{}sigma_{}{} = {:.4f} sigma_{}{}", text.empty() ? "" : ", ", axisNames[a],
+                                axisNames[a], ratios[n++], axisNames[vertical], axisNames[vertical]);
     if (!text.empty())
         line("K0", text + " (least squares by volume)");
-    line("energy", fmt::format("elastic {:.4g} J, plastic {:.4g} J in the last pass", strain_,
-                               state_.ledger.plasticDissipation));
+    line("energy",
+         fmt::format("elastic {:.4g} J, plastic {:.4g} J in the last pass", strain_, state_.ledger.plasticDissipation));
 }
 
 void GravityLoading::write()
@@ -321,9 +325,8 @@ void GravityLoading::write()
     forgetTurn(state_);
     recordInstructionSet(state_, instructionSet());
     recordStorage(state_, storage());
-    state_.provenance["gravityLoading"] =
-        fmt::format("{} {}; {} steps, net force {:.3g} of the load\n{}", projectVersion(), gitRevision(), steps_, ratio_,
-                    dictionary_);
+    state_.provenance["gravityLoading"] = fmt::format("{} {}; {} steps, net force {:.3g} of the load\n{}",
+                                                      projectVersion(), gitRevision(), steps_, ratio_, dictionary_);
     output::writeState(folder_.timePath(timeName_), state_);
     fmt::print("wrote {}/state.h5\n", timeName_);
 }

@@ -6,9 +6,9 @@
 ///
 /// At rest means: ratio = sum over nodes and components of |net force| over that of the internal forces and loads (at
 /// least the weight) below `tolerance`, and nodal kinetic energy below `kineticTolerance` of the elastic energy. What
-/// walls hold is no net force. The kinetic energy is that of velocities as they are projected to nodes: what no grid sees
-/// does not count, nor what forces give to nodes next to nothing lies at. How bodies get there does not matter, so the
-/// time of the motion has no meaning.
+/// walls hold is no net force. The kinetic energy is that of velocities as they are projected to nodes: what no grid
+/// sees does not count, nor what forces give to nodes next to nothing lies at. How bodies get there does not matter, so
+/// the time of the motion has no meaning.
 ///
 ///     dynamicRelaxation            // system/gravityLoadingDict; all of it may be absent
 ///     {
@@ -27,9 +27,9 @@
 /// stress starts with the run. Not with hyperelastic laws, whose stress is that of F.
 ///
 /// Velocities are zero in the end, and the ledger is empty: the run that follows begins at time 0, step 0. A body
-/// without equilibrium (a slope that fails) comes to no rest: StepError after maxSteps or maxTime, nothing is written. So where
-/// positions are kept and each pass moves the body as far as the one before.
-/// Splitting, merging, staggeredStart, bulk viscosity and Runge-Kutta steps do not take part. Verified in
+/// without equilibrium (a slope that fails) comes to no rest: StepError after maxSteps or maxTime, nothing is written.
+/// So where positions are kept and each pass moves the body as far as the one before. Splitting, merging,
+/// staggeredStart, bulk viscosity and Runge-Kutta steps do not take part. Verified in
 /// tests/verification/gravityLoading.
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"

@@ -100,8 +100,8 @@ void readMerging(const Dictionary& d, stepping::Scene& scene)
     splitting::MergeRule rule;
     rule.threshold = d.get<double>(
         {"threshold", "longest edge that merges, in seeding spacings", {}, Bound::nonNegative(), rule.threshold});
-    rule.closeness =
-        d.get<double>({"closeness", "how far a pair may be from one domain, in edges", {}, {0, 0.5, true, false}, rule.closeness});
+    rule.closeness = d.get<double>(
+        {"closeness", "how far a pair may be from one domain, in edges", {}, {0, 0.5, true, false}, rule.closeness});
     rule.interval = d.get<Index>({"interval", "steps between looks", {}, Bound::atLeast(1), rule.interval});
     if (scene.splitting && 2 * rule.threshold >= scene.splitting->threshold)
         d.fail("threshold", fmt::format("{:g}, with splitting at {:g}", rule.threshold, scene.splitting->threshold),
@@ -115,7 +115,8 @@ void readBulkViscosity(const Dictionary& d, stepping::Scene& scene)
 {
     treatment::BulkViscosity b;
     b.linear = d.get<double>({"linear", "b1, of rho h c_p |tr D|", unit::none, Bound::nonNegative(), b.linear});
-    b.quadratic = d.get<double>({"quadratic", "b2, of rho (b2 h tr D)^2", unit::none, Bound::nonNegative(), b.quadratic});
+    b.quadratic =
+        d.get<double>({"quadratic", "b2, of rho (b2 h tr D)^2", unit::none, Bound::nonNegative(), b.quadratic});
     if (b.any())
         scene.bulkViscosity = b;
 }

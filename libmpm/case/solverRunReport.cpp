@@ -125,8 +125,8 @@ void SolverRun::banner() const
         line("merging", fmt::format("of edges under {:g} seeding spacings, every {} steps", s.merging->threshold,
                                     s.merging->interval));
     if (s.bulkViscosity)
-        line("bulkViscosity", fmt::format("linear {:g}, quadratic {:g}", s.bulkViscosity->linear,
-                                          s.bulkViscosity->quadratic));
+        line("bulkViscosity",
+             fmt::format("linear {:g}, quadratic {:g}", s.bulkViscosity->linear, s.bulkViscosity->quadratic));
     if (done())
         line("time", fmt::format("{:g} s; endTime {:g} s is reached, there is nothing to do", state_.time,
                                  runTime_->endTime()));

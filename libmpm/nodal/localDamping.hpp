@@ -13,7 +13,8 @@
 ///         coefficient 0.7;        // alpha [-], 0 <= alpha < 1; 0: none
 ///     }
 ///
-/// v_a is the velocity in the middle of the step without damping, w = v_i + dt f/(2 m), and the change is held at 2 |w|:
+/// v_a is the velocity in the middle of the step without damping, w = v_i + dt f/(2 m), and the change is held at 2
+/// |w|:
 ///     u_a <- u_a - sign(w_a) min(alpha |u_a - v_a|, 2 |w_a|)
 /// so that the mean of v_i and v* never turns round and the dissipation - J . (v_i + v*)/2 is never negative, whatever
 /// the step. Undamped steps keep their own energy, so these lose it: no dt that is stable without becomes unstable.

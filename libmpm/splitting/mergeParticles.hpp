@@ -13,16 +13,17 @@
 ///     - they have the material and all l0 in common, lie in one cell, and l0_k is at most half the seeding spacing,
 ///       no less halved than any other edge (what was halved last is undone first);
 ///     - |F l0_k| < threshold times the spacing for both, and no other edge is over twice that;
-///     - they lie side by side: F^-1 (x_q - x_p) = l0_k e_k within closeness l0_j along each axis j, F the mean of both,
+///     - they lie side by side: F^-1 (x_q - x_p) = l0_k e_k within closeness l0_j along each axis j, F the mean of
+///     both,
 ///       and |F_q - F_p| < closeness |F|.
-/// Siblings of one split come first (the column `family` knows them), then pairs by their distance from an exact fit, at
-/// most one merge of a particle at each look. So a body that was split and pressed back is again what it was, and
+/// Siblings of one split come first (the column `family` knows them), then pairs by their distance from an exact fit,
+/// at most one merge of a particle at each look. So a body that was split and pressed back is again what it was, and
 /// twice the threshold must stay under that of splitting, or particles would split and merge in turn.
 ///
 /// Of the merged particle, exactly: m, V and V0 (sums), x and v (means by mass: centre of mass and momentum). Stress is
 /// the mean by volume, so sum V sigma stays; laws with convex surfaces admit it. F is the mean by V0, scaled to
-/// det F = V/V0. Doubled l0_k, the lower id. Kinetic energy mu |dv|^2/2 of the relative motion (mu the reduced mass) and
-/// the elastic energy of the difference of stresses are lost: splitMergeLoss; angular momentum mu dx x dv:
+/// det F = V/V0. Doubled l0_k, the lower id. Kinetic energy mu |dv|^2/2 of the relative motion (mu the reduced mass)
+/// and the elastic energy of the difference of stresses are lost: splitMergeLoss; angular momentum mu dx x dv:
 /// splitAngularMomentum; merges are counted.
 ///
 /// The order depends on ids and places alone, not on where particles lie in memory. Verified in tests/unit/merging.cpp.
@@ -40,6 +41,5 @@ struct MergeRule
 
 /// Looks at all particles once and returns the number of merges. Those that are left keep their order; the state should
 /// be sorted by position before the next step.
-Index mergeParticles(state::State& state, const MergeRule& rule,
-                     const std::vector<constitutive::Material>& materials);
+Index mergeParticles(state::State& state, const MergeRule& rule, const std::vector<constitutive::Material>& materials);
 } // namespace mpm::splitting

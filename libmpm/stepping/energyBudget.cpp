@@ -11,9 +11,8 @@ double strainEnergy(const state::State& state, const std::vector<constitutive::M
 {
     double energy = 0;
     for (Index i = first; i < first + count; ++i)
-        energy += constitutive::particleEnergy(
-            state.particles, std::size_t(i),
-            *materials[std::size_t(state.particles.material[std::size_t(i)])].law);
+        energy += constitutive::particleEnergy(state.particles, std::size_t(i),
+                                               *materials[std::size_t(state.particles.material[std::size_t(i)])].law);
     return energy;
 }
 

@@ -290,7 +290,7 @@ class ExplicitStepper : public Stepper
     std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
-    std::vector<std::array<double, 2>> bulkViscosities_; ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
+    std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread

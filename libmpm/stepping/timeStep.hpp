@@ -43,12 +43,12 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 struct StabilityLimit
 {
-    double courant = 0;   ///< C [-]
-    bool hats = false;    ///< hat functions: the second factor in |v|
-    double waveSpeed = 0; ///< c_p [m/s]
-    double speed = 0;     ///< |v| [m/s]
+    double courant = 0;                       ///< C [-]
+    bool hats = false;                        ///< hat functions: the second factor in |v|
+    double waveSpeed = 0;                     ///< c_p [m/s]
+    double speed = 0;                         ///< |v| [m/s]
     treatment::BulkViscosity viscosity{0, 0}; ///< of the scene, takes it down
-    double deltaT = 0;    ///< bound of dt [s]
+    double deltaT = 0;                        ///< bound of dt [s]
 };
 
 /// Does the bound change as particles move? (Hat functions with USL, or with an affine field.)

@@ -29,7 +29,8 @@ TEST_CASE("q of a uniform compression, none of an expansion")
     const double b1 = 0.3, b2 = 1.4, h = 1, rate = -2;
     for (const double sign : {1.0, -1.0})
     {
-        auto s = scenes::seedBlock({.corner = {3.1, 3.3}, .n = {16, 16, 1}, .spacing = 0.5, .h = 1, .cells = {14, 14, 1}});
+        auto s =
+            scenes::seedBlock({.corner = {3.1, 3.3}, .n = {16, 16, 1}, .spacing = 0.5, .h = 1, .cells = {14, 14, 1}});
         auto& p = s.particles;
         for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
             p.v[0][i] = sign * rate * p.x[0][i];
@@ -64,7 +65,8 @@ TEST_CASE("what it takes is booked, with and without averages of volume change")
             treated::stir(s, 2);
             auto sc = scene(treatment::BulkViscosity{0.2, 1.5}, update);
             if (kind > 0)
-                sc.treatment = treated::averaged(treated::AveragingRegion::patch, 2, treated::AveragedPart::total, kind == 2);
+                sc.treatment =
+                    treated::averaged(treated::AveragingRegion::patch, 2, treated::AveragedPart::total, kind == 2);
             if (kind == 3)
                 sc.treatment.averaging->viscosity = 0.1;
             sc.walls = {{"base", nodal::WallType::roller, 1, -1, 3, 0, true}};
@@ -88,7 +90,8 @@ TEST_CASE("energy stays bounded at the stability limit, which follows the coeffi
             const auto stepper = cases::makeStepper("uGIMP", s, sc);
             stepping::beginLedger(s, sc.materials);
             const auto limit = stepping::stabilityLimit(*stepper, s, sc, true);
-            const double xi = viscosity.linear + viscosity.quadratic * viscosity.quadratic * limit.speed / limit.waveSpeed;
+            const double xi =
+                viscosity.linear + viscosity.quadratic * viscosity.quadratic * limit.speed / limit.waveSpeed;
             CHECK(limit.deltaT / stepping::stabilityLimit(*stepper, s, plain, true).deltaT ==
                   Approx(std::sqrt(1 + xi * xi) - xi).epsilon(1e-12));
             for (int n = 0; n < 2000; ++n)

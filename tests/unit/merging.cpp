@@ -1,5 +1,5 @@
-// Merging keeps mass, momentum, centre, volume and sum V sigma, books what it loses, and brings a body that was split and
-// pressed back to what it was.
+// Merging keeps mass, momentum, centre, volume and sum V sigma, books what it loses, and brings a body that was split
+// and pressed back to what it was.
 #include "splitting/mergeParticles.hpp"
 
 #include "case/makeStepper.hpp"
@@ -69,8 +69,8 @@ std::map<std::int64_t, Row> byId(const Particles& p)
 {
     std::map<std::int64_t, Row> out;
     for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
-        out[p.id[i]] = {p.mass[i], p.volume0[i], p.length0[0][i], p.length0[1][i], p.x[0][i], p.x[1][i],
-                        p.F[0][i], double(p.generation[i])};
+        out[p.id[i]] = {p.mass[i], p.volume0[i], p.length0[0][i], p.length0[1][i],
+                        p.x[0][i], p.x[1][i],    p.F[0][i],       double(p.generation[i])};
     return out;
 }
 
@@ -174,7 +174,8 @@ TEST_CASE("of two particles: sums are exact, energies and angular momentum are b
     CHECK(p.length0[1][0] == 1);
     CHECK(p.generation[0] == 0);
     CHECK(p.F[0][0] * p.F[3][0] - p.F[1][0] * p.F[2][0] == Approx(p.volume[0] / p.volume0[0]).epsilon(1e-14));
-    // mu |dv|^2/2, mu = 400 600/1000, dv = (4, -1.5); what is elastic is the energy of the mean stress less than the mean
+    // mu |dv|^2/2, mu = 400 600/1000, dv = (4, -1.5); what is elastic is the energy of the mean stress less than the
+    // mean
     const double lost = 0.5 * 240 * (16 + 2.25);
     CHECK(kinetic - s.ledger.kineticEnergy == Approx(lost).epsilon(1e-13));
     const double elastic = t.strainEnergy - stepping::totals(s, materials).strainEnergy;
@@ -197,13 +198,13 @@ TEST_CASE("what does not belong together stays apart")
     CHECK(merges([](auto& s) { s.particles.material[1] = 1; }) == 0);
     CHECK(merges([](auto& s) { s.particles.generation[1] = 0; }) == 0);
     CHECK(merges([](auto& s) { s.particles.length0[0][1] = 0.25; }) == 0);
-    CHECK(merges([](auto& s) { s.particles.x[0][1] += 0.4; }) == 0);  // a gap
-    CHECK(merges([](auto& s) { s.particles.x[1][1] += 0.6; }) == 0);  // beside it
-    CHECK(merges([](auto& s) { s.grid.origin[0] = 0.6; }) == 0);      // another cell
-    CHECK(merges([](auto& s) { s.particles.F[2][1] = 1.5; }) == 0);   // another shape
-    CHECK(merges([](auto& s) { s.particles.F[0][1] = 1.25; }) == 0);  // an edge over the threshold
+    CHECK(merges([](auto& s) { s.particles.x[0][1] += 0.4; }) == 0); // a gap
+    CHECK(merges([](auto& s) { s.particles.x[1][1] += 0.6; }) == 0); // beside it
+    CHECK(merges([](auto& s) { s.grid.origin[0] = 0.6; }) == 0);     // another cell
+    CHECK(merges([](auto& s) { s.particles.F[2][1] = 1.5; }) == 0);  // another shape
+    CHECK(merges([](auto& s) { s.particles.F[0][1] = 1.25; }) == 0); // an edge over the threshold
     CHECK(merges([](auto&) {}, {.threshold = 0.4}) == 0);
-    CHECK(merges([](auto& s) { s.seedSpacing[0] = 0.5; }) == 0);      // they were seeded so
+    CHECK(merges([](auto& s) { s.seedSpacing[0] = 0.5; }) == 0); // they were seeded so
 }
 
 TEST_CASE("siblings come first, wherever particles lie in memory")
