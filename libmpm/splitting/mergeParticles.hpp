@@ -13,9 +13,8 @@
 ///     - they have the material and all l0 in common, lie in one cell, and l0_k is at most half the seeding spacing,
 ///       no less halved than any other edge (what was halved last is undone first);
 ///     - |F l0_k| < threshold times the spacing for both, and no other edge is over twice that;
-///     - they lie side by side: F^-1 (x_q - x_p) = l0_k e_k within closeness l0_j along each axis j, F the mean of
-///     both,
-///       and |F_q - F_p| < closeness |F|.
+///     - they lie side by side: F^-1 (x_q - x_p) = l0_k e_k within closeness l0_j along each axis j, F the
+///       mean of both, and |F_q - F_p| < closeness |F|.
 /// Siblings of one split come first (the column `family` knows them), then pairs by their distance from an exact fit,
 /// at most one merge of a particle at each look. So a body that was split and pressed back is again what it was, and
 /// twice the threshold must stay under that of splitting, or particles would split and merge in turn.
