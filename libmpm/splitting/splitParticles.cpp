@@ -157,6 +157,8 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
             // until the next sort children stand last, in the order of their ids, as (sortKey, id) says
             p.id[c] = s.nextId++;
             p.sortKey[c] = std::numeric_limits<std::int64_t>::max();
+            if (p.has(&state::Particles::family))
+                p.family[c] = double(p.id[parent] + 1);
         }
         int bit = 0;
         Vector3 offset{};
