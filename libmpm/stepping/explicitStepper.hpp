@@ -296,6 +296,7 @@ class ExplicitStepper : public Stepper
     bool rests() const { return scene_.rest.has_value(); }
     void prepareRest();
     void choosePlaces();
+    bool isDriven(const state::Tile& tile) const;
     void lookForRest();
     void layToRest();
     double fastestOf(const state::Tile& tile) const;
