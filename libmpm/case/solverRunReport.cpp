@@ -73,6 +73,19 @@ double softest(const std::vector<constitutive::Material>& materials)
     return modulus;
 }
 
+/// "0.3", "0.2 to 0.3".
+std::string muText(const nodal::ContactProperties& contact)
+{
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t one = 0; one < contact.mu.size(); ++one)
+        for (std::size_t other = 0; other < one; ++other)
+        {
+            least = std::min(least, contact.mu[one][other]);
+            most = std::max(most, contact.mu[one][other]);
+        }
+    return least == most ? fmt::format("{:g}", most) : fmt::format("{:g} to {:g}", least, most);
+}
+
 void line(const std::string& what, const std::string& text)
 {
     fmt::print("  {:<14} {}\n", what, text);
@@ -111,6 +124,9 @@ void SolverRun::banner() const
         line("damping", fmt::format("local, coefficient {:g}", *s.localDamping));
     for (const auto& wall : s.walls)
         line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
+    if (s.contact)
+        line("contact", fmt::format("between {}, mu {}{}", joinWords(s.contact->bodies, " and "), muText(*s.contact),
+                                    s.contact->detection == nodal::ContactDetection::nodes ? ", felt at shared nodes" : ""));
     for (const auto& load : s.loads)
         line("load", load.pressure ? fmt::format("{}: pressure {:g} Pa", load.patch, load.magnitude)
                                    : fmt::format("{}: traction ({:g} {:g} {:g}) Pa", load.patch, load.traction[0],
