@@ -27,10 +27,7 @@ class NoForce : public stepping::BodyForce
 
 Effect gravityEffect()
 {
-    Effect e{.name = "gravity",
-             .word = "value (0 -9.8 0)",
-             .file = "constant/g",
-             .help = "constant gravity"};
+    Effect e{.name = "gravity", .word = "value (0 -9.8 0)", .file = "constant/g", .help = "constant gravity"};
     e.uses = [](const EffectScene& s) { return s.scene.gravity.has_value(); };
     e.without = [](EffectScene& s) { s.scene.gravity.reset(); };
     e.neutral = [](EffectScene& s) { s.scene.gravity = Vector3{}; };

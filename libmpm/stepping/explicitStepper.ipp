@@ -2,6 +2,7 @@
 #pragma once
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "stepping/bulkViscosity.ipp"
 #include "stepping/chunkWork.ipp"
 #include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
@@ -27,6 +28,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
+    if (scene.localDamping)
+        localDamping_.emplace(*scene.localDamping);
     for (const auto& wall : scene.walls)
     {
         walls_.emplace_back(wall);
@@ -57,6 +60,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         state.particles.disableAffine();
     prepareTreatment();
     prepareRest();
+    if (!plain)
+        state.particles.keep(&state::Particles::family, scene.merging.has_value());
     if (keysNameBodies(state, layout_))
         sortByStoredKeys(state);
     else // the state of a run with other bodies
@@ -119,11 +124,17 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     ++state_.step;
 }
 
-/// Splitting and sorting at their intervals, and a sort where a particle has left its window; then tiles are cut anew.
-/// What is done here follows from the state alone, so a continued run does the same.
+/// Merging, splitting and sorting at their intervals, and a sort where a particle has left its window; then tiles are
+/// cut anew. What is done here follows from the state alone, so a continued run does the same.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::arrange()
 {
+    bool merged = false;
+    if (scene_.merging && state_.step % scene_.merging->interval == 0)
+    {
+        Clock clock(times_.split);
+        merged = splitting::mergeParticles(state_, *scene_.merging, scene_.materials) > 0;
+    }
     if (scene_.splitting && state_.step % scene_.splitting->interval == 0)
     {
         Clock clock(times_.split);
@@ -135,7 +146,7 @@ void ExplicitStepper<dim, Shape>::arrange()
             arranged_ = false;
         }
     }
-    if (const bool turn = state_.step % scene_.sortInterval == 0; turn || stray_)
+    if (const bool turn = state_.step % scene_.sortInterval == 0; turn || stray_ || merged)
         sortAnew(turn);
     else if (!arranged_)
     {
@@ -328,6 +339,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.averagingLoss += s.averagingLoss;
         total.viscosityLoss += s.viscosityLoss;
         total.gapWork += s.gapWork;
+        total.bulkViscosityLoss += s.bulkViscosityLoss;
         for (int a = 0; a < dim; ++a)
             total.momentum[a] += s.momentum[a];
         total.fastest = std::max(total.fastest, s.fastest);
@@ -359,6 +371,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.averagingLoss += total.averagingLoss;
         ledger.viscosityLoss += total.viscosityLoss;
         ledger.gapWork += total.gapWork;
+        ledger.bulkViscosityLoss += total.bulkViscosityLoss;
         report_.strainEnergy = total.strainEnergy + restingEnergy_;
         state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;

@@ -91,12 +91,22 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     constitutive::strainIncrement(ws.L, dt, strainOfForces);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
+    alignas(64) double trace[lanes]; // of the strain forces work on, where a viscosity asks
+    if (viscous() || bulkViscous())
+        traceOfForces(ws, dt, strainOfForces, trace);
     if (viscous())
     {
         transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, dt, strainOfForces, ws.volumeBefore);
+        const double work = viscousWork(ws.viscous, trace, ws.volumeBefore);
         sums.strainWorkBefore += work;
         sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volumeBefore);
+        sums.strainWorkBefore += work;
+        sums.bulkViscosityLoss += 0.5 * work;
     }
     if (relaxes())
     {
@@ -181,9 +191,16 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         for (int l = 0; l < lanes; ++l)
             ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
         transfer::storeLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, dt, strainOfForces, ws.volume);
+        const double work = viscousWork(ws.viscous, trace, ws.volume);
         sums.strainWork += work;
         sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        renewBulkViscosity(ws, first, count, dt, trace);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volume);
+        sums.strainWork += work;
+        sums.bulkViscosityLoss += 0.5 * work;
     }
     if (spreads)
         loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
