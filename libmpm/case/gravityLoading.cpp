@@ -114,6 +114,8 @@ GravityLoading::GravityLoading(const CaseDirectory& folder, const Options& optio
     s.merging.reset();
     s.bulkViscosity.reset();
     s.rest.reset();
+    for (auto& wall : s.walls)
+        wall.motion.reset();
     s.staggeredStart = false;
     s.timeIntegration = stepping::TimeIntegration::symplecticEuler;
     seeded_ = state_;

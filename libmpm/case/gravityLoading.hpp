@@ -29,7 +29,8 @@
 /// Velocities are zero in the end, and the ledger is empty: the run that follows begins at time 0, step 0. A body
 /// without equilibrium (a slope that fails) comes to no rest: StepError after maxSteps or maxTime, nothing is written.
 /// So where positions are kept and each pass moves the body as far as the one before. Splitting, merging,
-/// staggeredStart, bulk viscosity and Runge-Kutta steps do not take part. Verified in
+/// staggeredStart, bulk viscosity, rest and Runge-Kutta steps do
+/// not take part, and walls that will move rest where they start. Verified in
 /// tests/verification/gravityLoading.
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"

@@ -19,10 +19,10 @@
 /// so that the mean of v_i and v* never turns round and the dissipation - J . (v_i + v*)/2 is never negative, whatever
 /// the step. Undamped steps keep their own energy, so these lose it: no dt that is stable without becomes unstable.
 ///
-/// It acts after the walls, on the components of nodes that no wall touched in this step: the reaction of a wall is
-/// no unbalanced force, and friction sees the whole pressure. Forces that damping holds back while a body moves are
-/// those of inertia: transients come late (by 1/(1 - alpha)), so this is for loading towards rest (gravityLoading), or
-/// with a small alpha.
+/// It acts after walls and contact, on the components of nodes that no wall touched in this step and on nodes without
+/// contact: reactions are no unbalanced force, and friction sees the whole pressure. Forces that damping holds back
+/// while a body moves are those of inertia: transients come late (by 1/(1 - alpha)), so this is for loading towards
+/// rest (gravityLoading), or with a small alpha.
 ///
 /// Impulse and dissipation are booked. Verified in tests/unit/localDamping.cpp and tests/verification/gravityLoading.
 #include "nodal/nodeRow.hpp"
@@ -38,7 +38,7 @@ class LocalDamping
   public:
     explicit LocalDamping(double coefficient) : coefficient_(coefficient) {}
 
-    /// After the walls. Sums up what it did, and the unbalanced force it found.
+    /// After walls and contact. Sums up what it did, and the unbalanced force it found.
     void apply(NodeRow<dim>& row) const
     {
         for (Index i = row.begin; i < row.end; ++i)
@@ -54,6 +54,8 @@ class LocalDamping
   private:
     static bool held(const NodeRow<dim>& row, Index i, int axis)
     {
+        if (row.contact && row.contact[i] != Vector3{})
+            return true;
         if (row.walls->pushed.empty())
             return false;
         const std::size_t n = std::size_t(i - row.begin);

@@ -139,6 +139,7 @@ class ExplicitStepper : public Stepper
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
         bool stray = false;     ///< a particle has left its tile's window, or the grid
+        bool longEdges = false; ///< a particle may have to be split; where the next step looks
     };
 
     /// One thread's chunk of particles and node windows.
@@ -281,6 +282,11 @@ class ExplicitStepper : public Stepper
     }
     /// ... and take nothing but the filtered velocity?
     bool movesFiltered() const { return filters() && !scene_.filterRate; }
+    bool splitsNow() const { return scene_.splitting && state_.step % scene_.splitting->interval == 0; }
+    /// Is this the last step before a look at which particles are to be split?
+    bool splitsNext() const { return scene_.splitting && (state_.step + 1) % scene_.splitting->interval == 0; }
+    bool longEdges(Workspace& ws, Index first, int count) const;
+    void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
     void loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
@@ -352,6 +358,7 @@ class ExplicitStepper : public Stepper
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
     std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
+    std::vector<char> longEdges_; ///< tiles in which a particle may have to be split
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread
     /// Work of internal forces in this step, - sum dt f_int . v, and of the strains, sum V sigma : D dt.

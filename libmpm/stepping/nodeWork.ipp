@@ -98,14 +98,14 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
     for (const auto& effect : effects_)
         effect->apply(row);
     applyWalls(row);
-    if (scene_.localDamping)
-        localDamping_->apply(row);
 }
 
 /// (v_i, u) -> (v*, a); books what was done.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
 {
+    if (scene_.localDamping)
+        localDamping_->apply(row);
     for (const auto& effect : effects_)
         effect->book(row);
     nodal::endRow(row, 1 / kick_);
