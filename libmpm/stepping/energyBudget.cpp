@@ -83,8 +83,8 @@ double residual(const state::Ledger& l, double strainEnergy)
     return l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
-           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
+           l.dampingDissipation - l.absorbedEnergy - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss -
+           l.averagingLoss - l.viscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -177,6 +177,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "motionWork",
                                                      "contactFriction",
                                                      "contactLoss",
+                                                     "absorbedEnergy",
                                                      "residual"};
     return columns;
 }
@@ -206,6 +207,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.motionWork,
             l.contactFriction,
             l.contactLoss,
+            l.absorbedEnergy,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping
