@@ -140,12 +140,13 @@ void BodyContact<dim>::push(NodeRow<dim>& row) const
     {
         if (node.actor != actor_)
             continue;
+        node.pushed = 0; // of this pass: a second one, after contact between bodies, rubs with what it pushes
         const double into = -dot(minus(trialVelocity(row, node.i), node.velocity), node.normal);
         if (body_.separation && !(into > 0))
             continue;
         row.walls->open(std::size_t(row.end - row.begin));
         node.state = HeldNode::slips;
-        node.pushed += into;
+        node.pushed = into;
         give(row, node, times(into, node.normal), false);
         if (row.actors)
             row.actors[actor_].contacts += 1;

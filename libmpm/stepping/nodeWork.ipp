@@ -172,6 +172,8 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes()
 {
     Clock clock(times_.nodal);
+    for (auto& rows : heldRows_) // USF has foreseen contact, which now is decided
+        rows.clear();
     work_.ofForcesBefore = work_.ofForces = 0;
     report_.lightestNode = std::numeric_limits<double>::infinity();
     if (report_.resting == 0)

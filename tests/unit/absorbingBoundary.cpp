@@ -31,8 +31,11 @@ stepping::Scene scene()
 
 double energy(const state::State& s, const stepping::Scene& sc)
 {
-    const auto t = stepping::totals(s, sc.materials);
-    return t.kineticEnergy + t.strainEnergy;
+    double kinetic = 0;
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        for (std::size_t a = 0; a < 2; ++a)
+            kinetic += 0.5 * s.particles.mass[i] * s.particles.v[a][i] * s.particles.v[a][i];
+    return kinetic + stepping::totals(s, sc.materials).strainEnergy;
 }
 
 double residualOf(const state::State& s, const stepping::Scene& sc)
