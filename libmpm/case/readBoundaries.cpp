@@ -188,9 +188,9 @@ nodal::Absorbing readAbsorbing(const Dictionary& all, const Dictionary& d, const
     nodal::Absorbing out;
     out.name = name;
     out.normalRate = perCell * material->waveSpeed() *
-                     d.get<double>({"normal", "share of rho c_p along the normal", {}, Bound::nonNegative(), 1.0});
+                     d.get<double>({"normal", "share of rho c_p along the normal", {}, Bound::between(0, 10), 1.0});
     out.shearRate = perCell * shearSpeed *
-                    d.get<double>({"shear", "share of rho c_s along the plane", {}, Bound::nonNegative(), 1.0});
+                    d.get<double>({"shear", "share of rho c_s along the plane", {}, Bound::between(0, 10), 1.0});
     if (const Dictionary* incoming = d.findDict("incoming", "velocity of a wave that comes in; default: none"))
         out.incoming =
             std::make_shared<const dictionary::Motion>(dictionary::Motion::read(*incoming, state.particles.dim));

@@ -79,7 +79,9 @@ TEST_CASE("pressure and shear waves leave: less than 1 % of the energy comes bac
     const double start = energy(s, sc), c = waveSpeed(axis), dt = 0.4 * h / waveSpeed(0);
     run(s, sc, Index(8 / c / dt), dt); // the pulse is at 6 m, the side at 11 m
     CHECK(energy(s, sc) < 0.01 * start);
-    CHECK(s.ledger.absorbedEnergy == Approx(start).epsilon(0.01));
+    // in the nodes' velocities, of which FLIP finds a share 0.2 c dt/h again in those of the particles (transferLoss)
+    CHECK(s.ledger.absorbedEnergy + s.ledger.transferLoss == Approx(start).epsilon(0.01));
+    CHECK(s.ledger.absorbedEnergy == Approx(start).epsilon(0.1));
     CHECK(residualOf(s, sc) < 1e-12 * start);
     const auto t = stepping::totals(s, sc.materials);
     CHECK(std::abs(t.momentum[std::size_t(axis)] - s.ledger.initialMomentum[std::size_t(axis)] -
@@ -88,15 +90,14 @@ TEST_CASE("pressure and shear waves leave: less than 1 % of the energy comes bac
     auto free = strip(), stiff = strip();
     addPulse(free, axis);
     addPulse(stiff, axis);
-    auto closed = scene();
+    const auto closed = scene();
     run(free, closed, Index(8 / c / dt), dt);
     CHECK(energy(free, closed) > 0.98 * start); // it would all be there
-    auto strong = sc;
-    strong.absorbing[0].normalRate *= 1e9; // no dt is too large for it: a fixed end
-    strong.absorbing[0].shearRate *= 1e9;
+    auto strong = sc; // ((1 - 10)/(1 + 10))^2; a step of four times the dashpot's time
+    strong.absorbing[0].normalRate *= 10;
+    strong.absorbing[0].shearRate *= 10;
     run(stiff, strong, Index(8 / c / dt), dt);
-    CHECK(energy(stiff, strong) > 0.9 * start);
-    CHECK(energy(stiff, strong) < 1.0001 * start);
+    CHECK(energy(stiff, strong) / start == Approx(81.0 / 121).epsilon(0.03));
 }
 
 TEST_CASE("half the impedance reflects a third of the amplitude")

@@ -267,7 +267,7 @@ TEST_CASE("bodies are read; what cannot be is named")
     CHECK_THROWS_WITH(read("blade { points ((0.2 0.5) (0.8 0.5) (0.8 0.55) (0.2 0.55)); }"), Contains("thick at most"));
     CHECK_THROWS_WITH(read("blade { points ((0.2 0.5) (1.2 0.5) (1.2 1) (0.2 1)); }"),
                       Contains("particles inside the body") && Contains("cells"));
-    CHECK_THROWS_WITH(read("blade { points ((0.2 0.5) (0.8 1) (0.8 0.5) (0.2 1)); }"), Contains("cuts itself"));
+    CHECK_THROWS_WITH(read("blade { points ((0.2 0.5) (0.8 1.1) (0.8 0.5) (0.2 1)); }"), Contains("cuts itself"));
     CHECK_THROWS_WITH(read("blade { " + square + "motion { } }"), Contains("found no motion"));
     CHECK_THROWS_WITH(read("blade { " + square + "motion { rotation { axis (1 0 0); angle 1; } } }"), Contains("axis"));
     CHECK_THROWS_WITH(read("blade { " + square + "geometry \"a.msh\"; }"), Contains("besides"));
