@@ -21,7 +21,7 @@ std::string EffectRun::energy(double joule) const
 double EffectRun::supplied() const
 {
     const auto& l = state.ledger;
-    return std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) + l.initialKineticEnergy +
+    return std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) + l.motionSupply + l.initialKineticEnergy +
            l.initialStrainEnergy;
 }
 

@@ -60,7 +60,7 @@ struct EffectRun
     std::string energy(double joule) const;
     /// The same with its share of the work supplied: "12.3 kJ/m (4.1 % of the work supplied)".
     std::string share(double joule) const;
-    /// Work of gravity, loads and body forces, and the energy the body had to begin with [J].
+    /// Work of gravity, loads, body forces and moving walls, and the energy the body had to begin with [J].
     double supplied() const;
 };
 

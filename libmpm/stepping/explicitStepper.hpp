@@ -253,7 +253,7 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     double shareOfGridVelocity() const;
-    void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
+    [[gnu::noinline]] void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
     template <class W>
     [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
                                             double dt, bool moves);
