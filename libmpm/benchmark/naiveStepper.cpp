@@ -296,8 +296,8 @@ bool naiveKnows(const std::string& shape)
 std::unique_ptr<NaiveStepper> makeNaiveStepper(const std::string& shape, const state::State& state,
                                                const stepping::Scene& scene)
 {
-    if (scene.splitting || scene.relaxationTime || scene.bodyForce || !scene.loads.empty() ||
-        scene.materials.size() != 1)
+    if (scene.splitting || scene.relaxationTime || scene.localDamping || scene.merging || scene.bulkViscosity ||
+        scene.bodyForce || !scene.loads.empty() || scene.materials.size() != 1)
         throw InputError(
             "the naive step knows one material, no splitting, damping, tractions or prescribed body forces");
     return state.particles.dim == 2 ? make<2>(shape, state, scene) : make<3>(shape, state, scene);

@@ -27,10 +27,7 @@ class NoForce : public stepping::BodyForce
 
 Effect gravityEffect()
 {
-    Effect e{.name = "gravity",
-             .word = "value (0 -9.8 0)",
-             .file = "constant/g",
-             .help = "constant gravity"};
+    Effect e{.name = "gravity", .word = "value (0 -9.8 0)", .file = "constant/g", .help = "constant gravity"};
     e.uses = [](const EffectScene& s) { return s.scene.gravity.has_value(); };
     e.without = [](EffectScene& s) { s.scene.gravity.reset(); };
     e.neutral = [](EffectScene& s) { s.scene.gravity = Vector3{}; };
@@ -83,6 +80,69 @@ Effect viscousDampingEffect()
     return e;
 }
 
+Effect localDampingEffect()
+{
+    Effect e{.name = "localDamping",
+             .word = "damping { type local; ... }",
+             .file = "system/mpmSchemes",
+             .help = "a share of the net force on nodes, against their velocity"};
+    e.uses = [](const EffectScene& s) { return s.scene.localDamping.has_value(); };
+    e.without = [](EffectScene& s) { s.scene.localDamping.reset(); };
+    e.base = [](EffectScene& s) { s.scene.relaxationTime.reset(); };
+    e.neutral = [](EffectScene& s) { s.scene.localDamping = 0.0; };
+    e.neutralText = "coefficient 0";
+    e.pass = &stepping::PassTimes::nodal;
+    e.did = [](const EffectRun& run) -> Deed {
+        const double work = run.grown(&Ledger::dampingDissipation);
+        if (work == 0)
+            return {0, "J", "0 J dissipated", false};
+        return {work, "J", "took " + run.share(work)};
+    };
+    return e;
+}
+
+Effect bulkViscosityEffect()
+{
+    Effect e{.name = "bulkViscosity",
+             .word = "bulkViscosity { ... }",
+             .file = "system/mpmSchemes",
+             .help = "a pressure against compression that spreads shocks over a few cells",
+             .fields = {"bulkViscousStress"}};
+    e.uses = [](const EffectScene& s) { return s.scene.bulkViscosity.has_value(); };
+    e.without = [](EffectScene& s) { s.scene.bulkViscosity.reset(); };
+    e.neutral = [](EffectScene& s) { s.scene.bulkViscosity = treatment::BulkViscosity{0, 0}; };
+    e.neutralText = "linear 0; quadratic 0";
+    e.pass = &stepping::PassTimes::law;
+    e.did = [](const EffectRun& run) -> Deed {
+        const double work = run.grown(&Ledger::bulkViscosityLoss);
+        if (work == 0)
+            return {0, "J", "0 J dissipated", false};
+        return {work, "J", "took " + run.share(work)};
+    };
+    return e;
+}
+
+Effect mergingEffect()
+{
+    Effect e{.name = "merging",
+             .word = "merging { ... }",
+             .file = "system/mpmSchemes",
+             .help = "halves of split particles become one again where they are short",
+             .fields = {"family"}};
+    e.uses = [](const EffectScene& s) { return s.scene.merging.has_value(); };
+    e.without = [](EffectScene& s) { s.scene.merging.reset(); };
+    e.neutral = [](EffectScene& s) { s.scene.merging = splitting::MergeRule{.threshold = 0}; };
+    e.neutralText = "threshold 0";
+    e.pass = &stepping::PassTimes::split;
+    e.did = [](const EffectRun& run) -> Deed {
+        const Index merges = run.grown(&Ledger::merges);
+        if (merges == 0)
+            return {0, "particles", "0 pairs merged", false};
+        return {double(merges), "particles", fmt::format("{} pairs merged", merges)};
+    };
+    return e;
+}
+
 Effect splittingEffect()
 {
     Effect e{.name = "splitting",
@@ -130,6 +190,7 @@ Effect restEffect()
 
 std::vector<Effect> processEffects()
 {
-    return {gravityEffect(), bodyForceEffect(), viscousDampingEffect(), splittingEffect(), restEffect()};
+    return {gravityEffect(),       bodyForceEffect(), viscousDampingEffect(), localDampingEffect(),
+            bulkViscosityEffect(), splittingEffect(), mergingEffect(),        restEffect()};
 }
 } // namespace mpm::cases

@@ -110,7 +110,17 @@ void takeGrid(const Dictionary& gridDict, state::State& state)
                     fmt::format("a box around all particles: the one with id {} lies at {:g} m", p.id[i], x));
 }
 
-/// A hyperelastic law makes stress from the deformation alone: what a state of step 0 holds would vanish unseen.
+bool undeformed(const state::Particles& p, std::size_t i)
+{
+    for (int a = 0; a < p.dim; ++a)
+        for (int k = 0; k < p.dim; ++k)
+            if (p.F[std::size_t(a * p.dim + k)][i] != (a == k ? 1 : 0))
+                return false;
+    return true;
+}
+
+/// A hyperelastic law makes stress from the deformation alone: what a state of step 0 holds would vanish unseen, unless
+/// it came with its deformation (gravityLoading).
 void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Material>& materials,
                       const state::State& state)
 {
@@ -118,7 +128,7 @@ void refuseLostStress(const Dictionary& d, const std::vector<constitutive::Mater
     for (std::size_t i = 0; i < std::size_t(p.size()) && state.step == 0; ++i)
         for (int k = 0; k < stressComponents(p.dim); ++k)
             if (const auto& m = materials[std::size_t(p.material[i])];
-                p.stress[std::size_t(k)][i] != 0 && m.law->hyperelastic())
+                p.stress[std::size_t(k)][i] != 0 && m.law->hyperelastic() && undeformed(p, i))
                 throw InputError(
                     d.where(m.name),
                     fmt::format("{}: found law {}, whose stress follows from the deformation since the start, "

@@ -2,6 +2,8 @@
 
 #include "case/makeStepper.hpp"
 
+#include <fmt/format.h>
+
 namespace mpm::cases
 {
 using dictionary::Bound;
@@ -91,6 +93,33 @@ stepping::Rest readRest(const Dictionary& all, const Dictionary& d, const steppi
         all.fail("rest", "it beside constant/bodyForce", "one of the two: a force by formulas may disturb what sleeps");
     return rest;
 }
+
+/// Twice the threshold is what merged edges may have: over that of splitting they would be split again.
+void readMerging(const Dictionary& d, stepping::Scene& scene)
+{
+    splitting::MergeRule rule;
+    rule.threshold = d.get<double>(
+        {"threshold", "longest edge that merges, in seeding spacings", {}, Bound::nonNegative(), rule.threshold});
+    rule.closeness = d.get<double>(
+        {"closeness", "how far a pair may be from one domain, in edges", {}, {0, 0.5, true, false}, rule.closeness});
+    rule.interval = d.get<Index>({"interval", "steps between looks", {}, Bound::atLeast(1), rule.interval});
+    if (scene.splitting && 2 * rule.threshold >= scene.splitting->threshold)
+        d.fail("threshold", fmt::format("{:g}, with splitting at {:g}", rule.threshold, scene.splitting->threshold),
+               fmt::format("less than half of that, {:g}: else particles would be split and merged in turn",
+                           0.5 * scene.splitting->threshold));
+    if (rule.threshold > 0)
+        scene.merging = rule;
+}
+
+void readBulkViscosity(const Dictionary& d, stepping::Scene& scene)
+{
+    treatment::BulkViscosity b;
+    b.linear = d.get<double>({"linear", "b1, of rho h c_p |tr D|", unit::none, Bound::nonNegative(), b.linear});
+    b.quadratic =
+        d.get<double>({"quadratic", "b2, of rho (b2 h tr D)^2", unit::none, Bound::nonNegative(), b.quadratic});
+    if (b.any())
+        scene.bulkViscosity = b;
+}
 } // namespace
 
 std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
@@ -133,14 +162,25 @@ std::string readSchemes(const Dictionary& d, stepping::Scene& scene)
         d.get<Index>({"sortInterval", "steps between sorts of the particles", {}, Bound::atLeast(1), Index(20)});
     if (const Dictionary* damping = d.findDict("damping", "force against the velocity"))
     {
-        damping->choose("type", "what the force follows", {{"viscous", "mass and velocity: - m v/relaxationTime"}});
-        scene.relaxationTime = damping->get<double>(
-            {"relaxationTime", "time in which free momentum falls to 1/e", unit::time, Bound::positive()});
+        const auto type = damping->choose("type", "what the force follows",
+                                          {{"viscous", "mass and velocity: - m v/relaxationTime"},
+                                           {"local", "the unbalanced force: - coefficient |f| sign(v)"}});
+        if (type == "viscous")
+            scene.relaxationTime = damping->get<double>(
+                {"relaxationTime", "time in which free momentum falls to 1/e", unit::time, Bound::positive()});
+        else if (const double coefficient = damping->get<double>(
+                     {"coefficient", "share of the unbalanced force", unit::none, {0, 1, false, true}});
+                 coefficient > 0)
+            scene.localDamping = coefficient;
     }
     if (const Dictionary* rest = d.findDict("rest", "soil at rest sleeps"))
         scene.rest = readRest(d, *rest, scene);
     if (const Dictionary* splitting = d.findDict("splitting", "adaptive splitting of stretched particles"))
         scene.splitting = readSplitting(*splitting);
+    if (const Dictionary* merging = d.findDict("merging", "pairs of small particles become one again"))
+        readMerging(*merging, scene);
+    if (const Dictionary* viscosity = d.findDict("bulkViscosity", "pressure against compression, for shocks"))
+        readBulkViscosity(*viscosity, scene);
     return shape;
 }
 } // namespace mpm::cases

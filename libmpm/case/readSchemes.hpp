@@ -16,8 +16,10 @@
 ///                               // has a meaning
 ///     stressTreatment none;     // none | automatic | { ... } (treatment/stressTreatment.hpp)
 ///     sortInterval    20;       // steps between sorts of the particles
-///     damping         { ... }   // nodal/damping.hpp; absent: none
+///     damping         { ... }   // nodal/damping.hpp, nodal/localDamping.hpp; absent: none
+///     bulkViscosity   { ... }   // treatment/bulkViscosity.hpp; absent: none
 ///     splitting       { ... }   // splitting/splitParticles.hpp; absent: none
+///     merging         { ... }   // splitting/mergeParticles.hpp; absent: none
 /// Combinations that make no sense are refused with the reason.
 #include "dictionary/dictionary.hpp"
 #include "stepping/stepper.hpp"

@@ -107,6 +107,8 @@ void SolverRun::banner() const
         line("bodyForce", force->describe() + " m/s^2");
     if (s.relaxationTime)
         line("damping", fmt::format("viscous, relaxation time {:g} s", *s.relaxationTime));
+    if (s.localDamping)
+        line("damping", fmt::format("local, coefficient {:g}", *s.localDamping));
     for (const auto& wall : s.walls)
         line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
     for (const auto& load : s.loads)
@@ -120,6 +122,12 @@ void SolverRun::banner() const
     if (s.rest)
         line("rest", fmt::format("waves below a strain of {:g} ({:g} Pa) may be ignored, a look every {} steps",
                                  s.rest->tolerance, s.rest->tolerance * softest(s.materials), s.sortInterval));
+    if (s.merging)
+        line("merging", fmt::format("of edges under {:g} seeding spacings, every {} steps", s.merging->threshold,
+                                    s.merging->interval));
+    if (s.bulkViscosity)
+        line("bulkViscosity",
+             fmt::format("linear {:g}, quadratic {:g}", s.bulkViscosity->linear, s.bulkViscosity->quadratic));
     if (done())
         line("time", fmt::format("{:g} s; endTime {:g} s is reached, there is nothing to do", state_.time,
                                  runTime_->endTime()));
@@ -184,7 +192,8 @@ void SolverRun::summary()
     fmt::print("\nDone: {} steps to {:g} s in {} ({} of it output)\n", steps, state_.time,
                formatDuration(profile_.elapsed()), formatDuration(profile_.history + profile_.output));
     line("speed", fmt::format("{:.1f} ns per particle and step", profile_.nsPerParticleStep(stepSeconds_)));
-    line("particles", fmt::format("{}, {} splits", state_.particles.size(), l.splits));
+    line("particles", fmt::format("{}, {} splits{}", state_.particles.size(), l.splits,
+                                  scene_.scene.merging ? fmt::format(", {} merges", l.merges) : ""));
     if (const double memory = peakMemory(); memory > 0)
         line("memory", fmt::format("{} at most, {:.0f} bytes a particle", formatBytes(memory),
                                    memory / double(state_.particles.size())));
@@ -202,8 +211,10 @@ void SolverRun::summary()
         motion = motion || wall.motion;
     if (motion)
         line("motion", fmt::format("walls did {:.4g} {} of work", l.motionWork / 1e3, unit));
-    if (scene_.scene.relaxationTime)
+    if (scene_.scene.relaxationTime || scene_.scene.localDamping)
         line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
+    if (scene_.scene.bulkViscosity)
+        line("bulkViscosity", fmt::format("{:.4g} {} dissipated", l.bulkViscosityLoss / 1e3, unit));
     if (const auto& treatment = scene_.scene.treatment; treatment.any())
     {
         const auto share = [&](double energy) {

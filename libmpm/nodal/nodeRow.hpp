@@ -25,6 +25,8 @@ struct NodeSums
     double forceWork = 0;                                      ///< sum dt f . v* over the projected forces [J]
     double wallLoss = 0;                                       ///< sum m (v_i - v*)^2/2 where walls hold [J]
     double motionWork = 0;                                     ///< sum J . V of impulses J by walls that move at V [J]
+    double unbalancedForce = 0; ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
+    double appliedForce = 0;    ///< sum |f| by components over the projected forces [N]; the same
     Index contacts = 0;                                        ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
@@ -41,6 +43,8 @@ struct NodeSums
         motionWork += o.motionWork;
         forceWorkBefore += o.forceWorkBefore;
         dampingLoss += o.dampingLoss;
+        unbalancedForce += o.unbalancedForce;
+        appliedForce += o.appliedForce;
         forceWork += o.forceWork;
         contacts += o.contacts;
         lightest = std::min(lightest, o.lightest);

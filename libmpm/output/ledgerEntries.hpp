@@ -25,6 +25,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("relaxationLoss", ledger.relaxationLoss, "J");
     visit("averagingLoss", ledger.averagingLoss, "J");
     visit("viscosityLoss", ledger.viscosityLoss, "J");
+    visit("bulkViscosityLoss", ledger.bulkViscosityLoss, "J");
     visit("gapWork", ledger.gapWork, "J");
     visit("restLoss", ledger.restLoss, "J");
     visit("gravityWork", ledger.gravityWork, "J");
@@ -45,6 +46,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitAngularMomentum", ledger.splitAngularMomentum, "kg m^2/s");
     visit("apexReturns", ledger.apexReturns, "1");
     visit("splits", ledger.splits, "1");
+    visit("merges", ledger.merges, "1");
     visit("splitsPutOff", ledger.splitsPutOff, "1");
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("restingSteps", ledger.restingSteps, "1");
@@ -52,7 +54,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("wallContacts", ledger.wallContacts, "1");
     visit("contactNodes", ledger.contactNodes, "1");
 
-    static_assert(sizeof(state::Ledger) == 53 * 8,
+    static_assert(sizeof(state::Ledger) == 55 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

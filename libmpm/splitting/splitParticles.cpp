@@ -73,14 +73,18 @@ bool anyLongEdge(const state::State& s, const Rule& rule, Index first)
 }
 
 /// Chunks that hold a particle with a long edge.
-std::vector<Index> chunksToSplit(const state::State& s, const Rule& rule)
+std::vector<Index> chunksToSplit(const state::State& s, const Rule& rule, const std::vector<Range>* where)
 {
     const Index chunks = s.particles.chunks();
-    std::vector<char> any(static_cast<std::size_t>(chunks));
+    std::vector<char> any(static_cast<std::size_t>(chunks), where ? 0 : 1);
+    for (std::size_t r = 0; where && r < where->size(); ++r)
+        for (Index c = (*where)[r].first / lanes; c * lanes < (*where)[r].end; ++c)
+            any[std::size_t(c)] = 1;
 #pragma omp parallel for schedule(static) if (chunks > 1000)
     for (Index c = 0; c < chunks; ++c)
-        any[std::size_t(c)] =
-            s.particles.dim == 2 ? anyLongEdge<2>(s, rule, c * lanes) : anyLongEdge<3>(s, rule, c * lanes);
+        if (any[std::size_t(c)])
+            any[std::size_t(c)] =
+                s.particles.dim == 2 ? anyLongEdge<2>(s, rule, c * lanes) : anyLongEdge<3>(s, rule, c * lanes);
     std::vector<Index> found;
     for (Index c = 0; c < chunks; ++c)
         if (any[std::size_t(c)])
@@ -157,6 +161,8 @@ Index makeChildren(state::State& s, Index i, const Edges& e, double factor)
             // until the next sort children stand last, in the order of their ids, as (sortKey, id) says
             p.id[c] = s.nextId++;
             p.sortKey[c] = std::numeric_limits<std::int64_t>::max();
+            if (p.has(&state::Particles::family))
+                p.family[c] = double(p.id[parent] + 1);
         }
         int bit = 0;
         Vector3 offset{};
@@ -206,11 +212,12 @@ void splitParticle(state::State& state, const Rule& rule, const std::vector<Barr
 }
 } // namespace
 
-Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers)
+Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers,
+                       const std::vector<Range>* where)
 {
     Outcome outcome;
     const Index before = state.particles.size();
-    for (const Index chunk : chunksToSplit(state, rule))
+    for (const Index chunk : chunksToSplit(state, rule, where))
         for (Index i = chunk * lanes; i < std::min(before, (chunk + 1) * lanes); ++i)
             splitParticle(state, rule, barriers, i, outcome);
     state.ledger.splitsPutOff = outcome.putOff;

@@ -44,6 +44,12 @@ struct Barrier
     double position = 0;
 };
 
+/// Particles first .. end - 1 in memory.
+struct Range
+{
+    Index first = 0, end = 0;
+};
+
 struct Outcome
 {
     Index split = 0;  ///< particles that were split
@@ -55,5 +61,7 @@ struct Outcome
 /// Splits once where the rule asks for it (children are looked at again the next time), in the order of the particles.
 /// Books splits and their losses in the state's ledger. The new particles stand at the end, in memory and by their sort
 /// key, until the next sort.
-Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers);
+/// where: particles among which all those with long edges are, in memory; null: look at all of them.
+Outcome splitParticles(state::State& state, const Rule& rule, const std::vector<Barrier>& barriers,
+                       const std::vector<Range>* where = nullptr);
 } // namespace mpm::splitting

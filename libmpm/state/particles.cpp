@@ -60,6 +60,8 @@ const std::array<OptionalColumn, Particles::optionals>& Particles::optionalColum
         {&Particles::viscousStress, "viscousStress", "Pa"},
         {&Particles::quietLooks, "quietLooks", "1"},
         {&Particles::plasticStrain, "plasticStrain", "1"},
+        {&Particles::bulkViscousStress, "bulkViscousStress", "Pa"},
+        {&Particles::family, "family", "1"},
     }};
     return columns;
 }

@@ -69,10 +69,14 @@ struct Particles
     Column<double> quietLooks;    ///< looks in a row at which a particle's tile was quiet (stepping/rest.hpp) [-]
     Column<double> viscousStress; ///< normal stress that only forces see (treatment/volumetricAveraging.hpp) [Pa]
     Column<double> plasticStrain; ///< kappa, history of laws that soften (constitutive/softening.hpp) [-]
+    Column<double> bulkViscousStress; ///< the same of bulk viscosity (treatment/bulkViscosity.hpp) [Pa]
+    /// Of a later child of a split: the id of the first, which is that of the parent, + 1; 0 where there is none
+    /// (splitting/mergeParticles.hpp).
+    Column<double> family;
 
     /// All of these, in the order of files. A new one is a member above and a line in particles.cpp: memory, files,
     /// sorting, splitting and predictions of cost follow this list.
-    static constexpr std::size_t optionals = 6;
+    static constexpr std::size_t optionals = 8;
     static const std::array<OptionalColumn, optionals>& optionalColumns();
     /// Is the column in use?
     bool has(Column<double> Particles::*column) const;

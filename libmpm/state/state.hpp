@@ -30,6 +30,7 @@ struct Ledger
     double relaxationLoss = 0;    ///< elastic energy that stress relaxation takes (treatment/stressRelaxation.hpp)
     double averagingLoss = 0; ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
     double viscosityLoss = 0; ///< taken by its viscosity
+    double bulkViscosityLoss = 0; ///< taken by bulk viscosity (treatment/bulkViscosity.hpp)
     double gapWork = 0;       ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
     double restLoss = 0;      ///< kinetic energy of particles that fell asleep (stepping/rest.hpp)
     double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
@@ -47,9 +48,10 @@ struct Ledger
     Vector3 dampingImpulse{};        ///< impulse of damping [N s]
     Vector3 restImpulse{};           ///< momentum that sleeping particles did not take (stepping/rest.hpp)
     Vector3 initialMomentum{};       ///< momentum at the start [N s]
-    double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting, summed [kg m^2/s]
+    double splitAngularMomentum = 0; ///< |change| of angular momentum by splitting and merging, summed [kg m^2/s]
     Index apexReturns = 0;           ///< particle returns to the apex
     Index splits = 0;                ///< particles split
+    Index merges = 0;                ///< pairs of particles merged
     Index splitsPutOff = 0;          ///< particles whose split is put off at a wall, at the last look
     Index splitsCapped = 0;          ///< particles whose split the caps on size and count refuse, at the last look
     Index restingSteps = 0;          ///< steps that particles slept through, summed over particles

@@ -151,7 +151,13 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 takeAveragePressure(ws, tile, x);
             if (viscous())
                 transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
+            if (bulkViscous())
+                transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
         }
+        if (bulkViscous())
+            for (int a = 0; a < dim; ++a)
+                for (int l = 0; l < lanes; ++l)
+                    ws.law.stress[a][l] += ws.bulkViscous[l];
         if (viscous())
             for (int a = 0; a < dim; ++a)
                 for (int l = 0; l < lanes; ++l)

@@ -1,44 +1,18 @@
 #include "stepping/energyBudget.hpp"
 
+#include "constitutive/particleEnergy.hpp"
+
 #include <algorithm>
-#include <type_traits>
 
 namespace mpm::stepping
 {
-namespace
-{
-/// W(F) of one particle.
-double storedEnergyOf(const state::Particles& p, std::size_t i, const constitutive::Hyperelastic& law)
-{
-    const auto of = [&]<int dim>(std::integral_constant<int, dim>) {
-        alignas(64) constitutive::TensorLanes<dim> F;
-        alignas(64) double energy[lanes];
-        for (int k = 0; k < dim * dim; ++k)
-            std::fill_n(F[k], lanes, p.F[std::size_t(k)][i]);
-        law.strainEnergy(F, energy);
-        return energy[0];
-    };
-    return p.dim == 2 ? of(std::integral_constant<int, 2>{}) : of(std::integral_constant<int, 3>{});
-}
-
-double strainEnergyOf(const state::Particles& p, std::size_t i, const constitutive::Law& law)
-{
-    if (const auto* hyperelastic = law.hyperelastic())
-        return p.volume0[i] * storedEnergyOf(p, i, *hyperelastic);
-    double sigma[6] = {};
-    for (int k = 0; k < stressComponents(p.dim); ++k)
-        sigma[k] = p.stress[k][i];
-    return p.volume[i] * constitutive::elasticEnergyDensity<3>(sigma, law.bulkModulus(), law.shearModulus());
-}
-} // namespace
-
 double strainEnergy(const state::State& state, const std::vector<constitutive::Material>& materials, Index first,
                     Index count)
 {
     double energy = 0;
     for (Index i = first; i < first + count; ++i)
-        energy += strainEnergyOf(state.particles, std::size_t(i),
-                                 *materials[std::size_t(state.particles.material[std::size_t(i)])].law);
+        energy += constitutive::particleEnergy(state.particles, std::size_t(i),
+                                               *materials[std::size_t(state.particles.material[std::size_t(i)])].law);
     return energy;
 }
 
@@ -52,7 +26,7 @@ Totals totals(const state::State& state, const std::vector<constitutive::Materia
         const std::size_t n = std::size_t(i);
         t.mass += p.mass[n];
         t.volume += p.volume[n];
-        t.strainEnergy += strainEnergyOf(p, n, *materials[std::size_t(p.material[n])].law);
+        t.strainEnergy += constitutive::particleEnergy(p, n, *materials[std::size_t(p.material[n])].law);
         for (int a = 0; a < p.dim; ++a)
         {
             t.momentum[a] += p.mass[n] * p.v[a][n];
@@ -84,7 +58,7 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
+           l.viscosityLoss - l.bulkViscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -177,6 +151,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "motionWork",
                                                      "contactFriction",
                                                      "contactLoss",
+                                                     "bulkViscosityLoss",
                                                      "residual"};
     return columns;
 }
@@ -206,6 +181,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.motionWork,
             l.contactFriction,
             l.contactLoss,
+            l.bulkViscosityLoss,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -11,12 +11,13 @@
 ///     transferLoss         (change of grid KE) - (change of particle KE), and the work of stress on what projections
 ///                          change in the velocities it meets (ExplicitStepper::bookStressWork): v_i and v* in the
 ///                          forces, w in the strains
-///     splitMergeLoss       energy lost by splitting
+///     splitMergeLoss       kinetic and elastic energy lost by splitting and merging
 ///     relaxationLoss       sum V (u - u~) + V (s - s~) : e/2, s~ the stress before a step after relaxation
 ///     averagingLoss        sum (V s~ + V' S) : (e - e_a)/2 with e_a the strains after volumetric averaging; 0 where it
 ///                          is conjugate: forces then do their work on e_a
 ///     viscosityLoss        sum (V q + V' q') tr e/2, q the viscous normal stress of volumetric averaging in the forces
 ///     restLoss             sum m v_p^2/2 of particles that fall asleep (rest.hpp)
+///     bulkViscosityLoss    sum (V q + V' q') tr e/2, q the pressure of bulk viscosity in the forces, negative
 ///     gapWork              sum V p_mid (g' - g) of tension gaps, given back when they close
 ///     motionWork           sum J . V of the impulses J that walls and bodies moving at V give to nodes; friction and
 ///                          impact are then those of the velocity relative to V

@@ -9,6 +9,7 @@
 #include "nodal/contact.hpp"
 #include "nodal/damping.hpp"
 #include "nodal/gravity.hpp"
+#include "nodal/localDamping.hpp"
 #include "nodal/traction.hpp"
 #include "nodal/wall.hpp"
 #include "stepping/sortParticles.hpp"
@@ -116,6 +117,7 @@ class ExplicitStepper : public Stepper
     bool plastic() const { return !plain && anyPlastic_; }
     bool averages() const { return scene_.treatment.averaging.has_value(); }
     bool viscous() const { return scene_.treatment.hasViscosity(); }
+    bool bulkViscous() const { return scene_.bulkViscosity.has_value(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
     bool relaxes() const
@@ -130,13 +132,14 @@ class ExplicitStepper : public Stepper
         double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
         double strainWork = 0;       ///< the same with stress and volume after it
         double strainEnergy = 0, finiteStrainWork = 0;
-        double relaxationLoss = 0, averagingLoss = 0, viscosityLoss = 0, gapWork = 0;
+        double relaxationLoss = 0, averagingLoss = 0, viscosityLoss = 0, gapWork = 0, bulkViscosityLoss = 0;
         Vector3 momentum{};
         double fastest = 0; ///< max v.v
         double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
         Index apexReturns = 0, cappedDomains = 0;
         Index badParticle = -1; ///< index of a particle that cannot go on
         bool stray = false;     ///< a particle has left its tile's window, or the grid
+        bool longEdges = false; ///< a particle may have to be split; where the next step looks
     };
 
     /// One thread's chunk of particles and node windows.
@@ -154,6 +157,7 @@ class ExplicitStepper : public Stepper
         constitutive::StressLanes<dim> smooth; ///< S sigma, or the correction
         treatment::OpenGap gap;
         alignas(64) double viscous[lanes], viscosity[lanes]; ///< normal stress of hourglass viscosity; eta
+        alignas(64) double bulkViscous[lanes];               ///< normal stress of bulk viscosity
         alignas(64) double spread[lanes];                    ///< what an average adds to each normal rate of L
         alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes], volumeMiddle[lanes];
         alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
@@ -222,6 +226,7 @@ class ExplicitStepper : public Stepper
 
     // remedies for erratic stresses, in stressTreatment.ipp
     void prepareTreatment();
+    void prepareBulkViscosity();
     void sizeTreatment();
     void averageVolumeChange(double dt, int gradientLane);
     void averagePressure();
@@ -240,8 +245,11 @@ class ExplicitStepper : public Stepper
     void takeAverage(Workspace& ws, const state::Tile& tile, Index first, int count);
     void loseToAverage(Workspace& ws, double dt, const double (&volume)[lanes], double (&work)[lanes]);
     void loadViscosity(Workspace& ws, Index first, int count) const;
-    double viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain,
+    void traceOfForces(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain,
+                       double (&trace)[lanes]) const;
+    double viscousWork(const double (&stress)[lanes], const double (&trace)[lanes],
                        const double (&volume)[lanes]) const;
+    void renewBulkViscosity(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes]);
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
     void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
@@ -274,6 +282,11 @@ class ExplicitStepper : public Stepper
     }
     /// ... and take nothing but the filtered velocity?
     bool movesFiltered() const { return filters() && !scene_.filterRate; }
+    bool splitsNow() const { return scene_.splitting && state_.step % scene_.splitting->interval == 0; }
+    /// Is this the last step before a look at which particles are to be split?
+    bool splitsNext() const { return scene_.splitting && (state_.step + 1) % scene_.splitting->interval == 0; }
+    bool longEdges(Workspace& ws, Index first, int count) const;
+    void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
     void loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
@@ -315,6 +328,7 @@ class ExplicitStepper : public Stepper
     template <class T>
     using List = typename SceneOf<Shape>::template List<T>;
     List<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
+    std::optional<nodal::LocalDamping<dim>> localDamping_;
     List<nodal::WallEffect<dim>> walls_;
     List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
@@ -341,7 +355,9 @@ class ExplicitStepper : public Stepper
     std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
+    std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
+    std::vector<char> longEdges_; ///< tiles in which a particle may have to be split
     std::vector<nodal::NodeSums> blockSums_;
     std::vector<std::unique_ptr<Workspace>> workspaces_; ///< one a thread
     /// Work of internal forces in this step, - sum dt f_int . v, and of the strains, sum V sigma : D dt.

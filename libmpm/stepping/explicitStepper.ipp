@@ -2,6 +2,7 @@
 #pragma once
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "stepping/bulkViscosity.ipp"
 #include "stepping/chunkWork.ipp"
 #include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
@@ -27,6 +28,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
+    if (scene.localDamping)
+        localDamping_.emplace(*scene.localDamping);
     for (const auto& wall : scene.walls)
     {
         walls_.emplace_back(wall);
@@ -57,6 +60,8 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         state.particles.disableAffine();
     prepareTreatment();
     prepareRest();
+    if (!plain)
+        state.particles.keep(&state::Particles::family, scene.merging.has_value());
     if (keysNameBodies(state, layout_))
         sortByStoredKeys(state);
     else // the state of a run with other bodies
@@ -119,28 +124,43 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     ++state_.step;
 }
 
-/// Splitting and sorting at their intervals, and a sort where a particle has left its window; then tiles are cut anew.
-/// What is done here follows from the state alone, so a continued run does the same.
+/// Merging, splitting and sorting at their intervals, and a sort where a particle has left its window; then tiles are
+/// cut anew. What is done here follows from the state alone, so a continued run does the same.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::arrange()
 {
-    if (scene_.splitting && state_.step % scene_.splitting->interval == 0)
+    bool merged = false;
+    if (scene_.merging && state_.step % scene_.merging->interval == 0)
     {
         Clock clock(times_.split);
-        if (wallsMove_)
-            barriers_ = wallBarriers(scene_, state_.grid, state_.time);
-        if (splitting::splitParticles(state_, *scene_.splitting, barriers_).added > 0)
-        {
-            sortLoose(state_, layout_, Narrow::nodes);
-            arranged_ = false;
-        }
+        merged = splitting::mergeParticles(state_, *scene_.merging, scene_.materials) > 0;
     }
-    if (const bool turn = state_.step % scene_.sortInterval == 0; turn || stray_)
+    if (splitsNow())
+        split(arranged_ && !merged);
+    if (const bool turn = state_.step % scene_.sortInterval == 0; turn || stray_ || merged)
         sortAnew(turn);
     else if (!arranged_)
     {
         Clock clock(times_.sort);
         buildTiles();
+    }
+}
+
+/// Where the last strain pass saw long edges, if tiles are still what they were (`known`); else everywhere.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::split(bool known)
+{
+    Clock clock(times_.split);
+    if (wallsMove_)
+        barriers_ = wallBarriers(scene_, state_.grid, state_.time);
+    std::vector<splitting::Range> where;
+    for (std::size_t t = 0; known && t < longEdges_.size(); ++t)
+        if (const auto& tile = grid_.tiles()[t]; longEdges_[t])
+            where.push_back({tile.first, tile.first + tile.count});
+    if (splitting::splitParticles(state_, *scene_.splitting, barriers_, known ? &where : nullptr).added > 0)
+    {
+        sortLoose(state_, layout_, Narrow::nodes);
+        arranged_ = false;
     }
 }
 
@@ -159,6 +179,7 @@ void ExplicitStepper<dim, Shape>::buildTiles(bool look)
     const auto& p = state_.particles;
     grid_.build(p, layout_, Shape::nodes - Narrow::nodes, Shape::nodes - 1);
     tileSums_.assign(grid_.tiles().size(), {});
+    longEdges_.assign(grid_.tiles().size(), 1);
     workspaces_.resize(std::size_t(std::max(1, omp_get_max_threads())));
     for (int a = 0; a < dim; ++a)
         next_[a].resize(p.mass.size());
@@ -279,6 +300,8 @@ void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& wanted)
             ws->sums = {};
             passOverTile(*ws, tiles[std::size_t(t)], dt, pass);
             tileSums_[std::size_t(t)] = ws->sums;
+            if (pass.strain && splitsNext())
+                longEdges_[std::size_t(t)] = ws->sums.longEdges;
         }
     }
     if (timed)
@@ -328,6 +351,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         total.averagingLoss += s.averagingLoss;
         total.viscosityLoss += s.viscosityLoss;
         total.gapWork += s.gapWork;
+        total.bulkViscosityLoss += s.bulkViscosityLoss;
         for (int a = 0; a < dim; ++a)
             total.momentum[a] += s.momentum[a];
         total.fastest = std::max(total.fastest, s.fastest);
@@ -359,6 +383,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         ledger.averagingLoss += total.averagingLoss;
         ledger.viscosityLoss += total.viscosityLoss;
         ledger.gapWork += total.gapWork;
+        ledger.bulkViscosityLoss += total.bulkViscosityLoss;
         report_.strainEnergy = total.strainEnergy + restingEnergy_;
         state_.largestJacobian = total.largestJacobian;
         ledger.apexVolume += total.apexVolume;

@@ -91,12 +91,22 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     constitutive::strainIncrement(ws.L, dt, strainOfForces);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
+    alignas(64) double trace[lanes]; // of the strain forces work on, where a viscosity asks
+    if (viscous() || bulkViscous())
+        traceOfForces(ws, dt, strainOfForces, trace);
     if (viscous())
     {
         transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, dt, strainOfForces, ws.volumeBefore);
+        const double work = viscousWork(ws.viscous, trace, ws.volumeBefore);
         sums.strainWorkBefore += work;
         sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volumeBefore);
+        sums.strainWorkBefore += work;
+        sums.bulkViscosityLoss += 0.5 * work;
     }
     if (relaxes())
     {
@@ -153,6 +163,8 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
                 break;
             }
     sums.smallestJacobian = std::min(sums.smallestJacobian, transfer::smallest(ws.J));
+    if (splitsNext())
+        sums.longEdges = sums.longEdges || longEdges(ws, first, count);
     transfer::storeLanes(p.volume.data() + first, count, ws.volume);
     for (int k = 0; k < dim * dim; ++k)
         transfer::storeLanes(p.F[k].data() + first, count, ws.F[k]);
@@ -181,9 +193,16 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         for (int l = 0; l < lanes; ++l)
             ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
         transfer::storeLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws, dt, strainOfForces, ws.volume);
+        const double work = viscousWork(ws.viscous, trace, ws.volume);
         sums.strainWork += work;
         sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        renewBulkViscosity(ws, first, count, dt, trace);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volume);
+        sums.strainWork += work;
+        sums.bulkViscosityLoss += 0.5 * work;
     }
     if (spreads)
         loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
@@ -223,6 +242,29 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     }
     if constexpr (Shape::followsStretch || hasCorners)
         updateDomains(ws, first, count);
+}
+
+/// May a particle have to be split (splitting/splitParticles.hpp)? Looks with some room, for the rounding of what is
+/// stored; the look itself decides.
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::longEdges(Workspace& ws, Index first, int count) const
+{
+    alignas(64) double over[lanes] = {}, length[lanes];
+    for (int k = 0; k < dim; ++k)
+    {
+        const double longest = scene_.splitting->threshold * state_.seedSpacing[std::size_t(k)];
+        const double allowed = (1 - 1e-6) * longest * longest;
+        transfer::loadLanes(state_.particles.length0[std::size_t(k)].data() + first, count, length);
+        for (int l = 0; l < lanes; ++l)
+        {
+            double square = 0;
+            for (int a = 0; a < dim; ++a)
+                square += ws.F[a * dim + k][l] * ws.F[a * dim + k][l];
+            const double beyond = square * length[l] * length[l] - allowed;
+            over[l] = beyond > over[l] ? beyond : over[l];
+        }
+    }
+    return transfer::largest(over) > 0;
 }
 
 /// 1/(2 K) and 1/(4 G) of each lane's material.

@@ -104,6 +104,8 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
 {
+    if (localDamping_)
+        localDamping_->apply(row);
     for (const auto& effect : effects_)
         effect->book(row);
     nodal::endRow(row, 1 / kick_);
@@ -117,6 +119,7 @@ void ExplicitStepper<dim, Shape>::solveNodes()
     Clock clock(times_.nodal);
     work_.ofForcesBefore = work_.ofForces = 0;
     report_.lightestNode = std::numeric_limits<double>::infinity();
+    report_.unbalancedForce = report_.appliedForce = report_.nodalKineticEnergy = 0;
     if (report_.resting == 0)
         return solveNodes(reached_);
     std::vector<Index> blocks = reached_;
@@ -178,6 +181,9 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         work_.ofForces += after;
     }
     report_.lightestNode = std::min(report_.lightestNode, sums.lightest);
+    report_.unbalancedForce += sums.unbalancedForce;
+    report_.appliedForce += sums.appliedForce;
+    report_.nodalKineticEnergy += sums.kineticBefore;
     ledger.gravityWork += sums.gravityWork;
     ledger.frictionDissipation += sums.frictionLoss;
     ledger.wallLoss += sums.wallLoss;

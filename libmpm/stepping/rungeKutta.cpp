@@ -203,6 +203,12 @@ std::string whyNoOde(const Scene& scene)
         return "only the transfer FLIP has a limit for small steps: the others filter velocities once a step";
     if (scene.contact)
         return "contact between bodies is decided once a step";
+    if (scene.bulkViscosity)
+        return "bulk viscosity begins where compression does, with a kink of the right-hand side";
+    if (scene.merging)
+        return "merging changes the number of unknowns";
+    if (scene.localDamping)
+        return "local damping turns round with the velocity, where the right-hand side jumps";
     if (!scene.loads.empty())
         return fmt::format(
             "the load on '{}' acts on a surface carried by the grid, which is no unknown of the particles",

@@ -11,7 +11,8 @@
 /// jump: RK4 then ends at order 2 to 1, at errors far below those of the symplectic schemes.
 ///
 /// Refused, as the equations are not smooth or no ODE of the particles: laws that can yield, walls that separate or
-/// rub, splitting, picRate > 0, loads on surfaces (which are carried by the grid), shapes whose gradients jump.
+/// rub, splitting, picRate > 0, local damping, bulk viscosity, merging, loads on surfaces (which are carried by the
+/// grid), shapes whose gradients jump.
 ///
 /// Energy budget: gravity, body force and damping work are quadratures of their powers with the stages and weights of
 /// the step itself, as are the impulses and the energy rate laws make. Kinetic and strain energies are those of the

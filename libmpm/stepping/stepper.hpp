@@ -14,9 +14,11 @@
 #include "constitutive/material.hpp"
 #include "nodal/boundaries.hpp"
 #include "nodal/contactProperties.hpp"
+#include "splitting/mergeParticles.hpp"
 #include "splitting/splitParticles.hpp"
 #include "state/state.hpp"
 #include "stepping/rest.hpp"
+#include "treatment/bulkViscosity.hpp"
 #include "treatment/stressTreatment.hpp"
 
 #include <memory>
@@ -69,10 +71,13 @@ struct Scene
     std::vector<constitutive::Material> materials; ///< by Particles::material
     std::optional<Vector3> gravity;                ///< [m/s^2]
     std::optional<double> relaxationTime;          ///< of viscous damping [s]
+    std::optional<double> localDamping;            ///< its coefficient [-] (nodal/localDamping.hpp)
     std::vector<nodal::Wall> walls;                ///< in the order of the dictionary
     std::vector<nodal::Load> loads;
     std::optional<nodal::ContactProperties> contact; ///< none: all materials hold together
     std::optional<splitting::Rule> splitting;
+    std::optional<splitting::MergeRule> merging;
+    std::optional<treatment::BulkViscosity> bulkViscosity;
     std::shared_ptr<const BodyForce> bodyForce;
     StressUpdate stressUpdate = StressUpdate::MUSL;
     TimeIntegration timeIntegration = TimeIntegration::symplecticEuler;
@@ -104,6 +109,9 @@ struct StepReport
     Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
     Index resting = 0;            ///< particles that slept through it
     double restingStress = 0;     ///< largest stress out of balance that left a tile asleep, |a| rho h of a node [Pa]
+    double unbalancedForce = 0;   ///< with localDamping: sum of |net force| over nodes, by components [N]
+    double appliedForce = 0;      ///< with localDamping: the same of the projected forces (all but gravity)
+    double nodalKineticEnergy = 0; ///< sum m_i v_i^2/2 as projected from the particles [J]
 };
 
 /// Seconds spent in the parts of the step since the start.

@@ -17,6 +17,7 @@ void ExplicitStepper<dim, Shape>::prepareTreatment()
     state_.particles.keep(&state::Particles::dilationRate, scene_.treatment.averagesElasticPart());
     state_.particles.keep(&state::Particles::flowMemory, scene_.treatment.followsFlow());
     state_.particles.keep(&state::Particles::viscousStress, viscous());
+    prepareBulkViscosity();
     for (const auto& material : scene_.materials)
         if (viscous())
             viscosities_.push_back(scene_.treatment.averaging->viscosity * material.density * state_.grid.h *

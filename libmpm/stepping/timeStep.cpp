@@ -64,6 +64,8 @@ StabilityLimit stabilityLimit(Stepper& stepper, const state::State& state, const
     limit.courant = methodCourant(dim, ignoresMass, scene,
                                   limitFollowsMass(scene, ignoresMass) ? stepper.smallestNodalMassFraction() : 1.0);
     limit.hats = !ignoresMass;
+    if (scene.bulkViscosity)
+        limit.viscosity = *scene.bulkViscosity;
     return movedLimit(limit, fastestWave(state, scene.materials), state, stepper.largestSpeed());
 }
 
@@ -74,6 +76,8 @@ StabilityLimit movedLimit(StabilityLimit limit, double restWaveSpeed, const stat
     const double reach = limit.waveSpeed + 3 * limit.speed;
     limit.deltaT = limit.courant * state.grid.h / reach *
                    (limit.hats ? limit.waveSpeed / std::min(reach, 7 * limit.waveSpeed) : 1);
+    if (limit.viscosity.any())
+        limit.deltaT *= treatment::bulkViscosityStepFactor(limit.viscosity, limit.speed, limit.waveSpeed);
     return limit;
 }
 

@@ -19,6 +19,8 @@
 /// sqrt(k). An affine field (APIC, TPIC) is lost on no second projection, so that USF and MUSL bear less, 0.75 (0.62 in
 /// 3D), and with hat functions their bound follows the mass, as that of USL does.
 ///
+/// Bulk viscosity takes the limit down by a factor of its own (treatment/bulkViscosity.hpp).
+///
 /// Runge-Kutta steps have bounds of their own (rungeKutta.hpp).
 ///
 /// The linearised step knows no |v|. Impacts do: bodies close in at up to 2 |v|, and every cell face a particle crosses
@@ -41,11 +43,12 @@ double fastestWave(const state::State& state, const std::vector<constitutive::Ma
 
 struct StabilityLimit
 {
-    double courant = 0;   ///< C [-]
-    bool hats = false;    ///< hat functions: the second factor in |v|
-    double waveSpeed = 0; ///< c_p [m/s]
-    double speed = 0;     ///< |v| [m/s]
-    double deltaT = 0;    ///< bound of dt [s]
+    double courant = 0;                       ///< C [-]
+    bool hats = false;                        ///< hat functions: the second factor in |v|
+    double waveSpeed = 0;                     ///< c_p [m/s]
+    double speed = 0;                         ///< |v| [m/s]
+    treatment::BulkViscosity viscosity{0, 0}; ///< of the scene, takes it down
+    double deltaT = 0;                        ///< bound of dt [s]
 };
 
 /// Does the bound change as particles move? (Hat functions with USL, or with an affine field.)

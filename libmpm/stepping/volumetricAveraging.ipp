@@ -158,24 +158,6 @@ void ExplicitStepper<dim, Shape>::loadViscosity(Workspace& ws, Index first, int 
         ws.viscosity[l] *= flow[l];
 }
 
-/// sum V q tr e.
-template <int dim, class Shape>
-double ExplicitStepper<dim, Shape>::viscousWork(Workspace& ws, double dt, const constitutive::StressLanes<dim>& strain,
-                                                const double (&volume)[lanes]) const
-{
-    alignas(64) double work[lanes];
-    for (int l = 0; l < lanes; ++l)
-    {
-        double trace = 0;
-        for (int a = 0; a < dim; ++a)
-            trace += strain[a][l];
-        if (conjugate()) // `strain` is then the averaged one
-            trace -= dt * dim * ws.spread[l];
-        work[l] = ws.viscous[l] * trace;
-    }
-    return transfer::sumOfProducts(volume, work);
-}
-
 /// Adds the mean of the d normal stresses to the cells.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::addPressure(Workspace& ws, const state::Tile& tile, Index first, int count)

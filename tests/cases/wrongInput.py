@@ -170,7 +170,7 @@ class WrongInput(unittest.TestCase):
     # options
 
     def test_unknown_option(self):
-        for utility in ("seedParticles", "mpmSolve", "smoothStress", "stressQuality", "splitParticles",
+        for utility in ("seedParticles", "gravityLoading", "mpmSolve", "smoothStress", "stressQuality", "splitParticles",
                         "checkIntegration"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-latesTime", says=["-latesTime", "-case"])
@@ -186,7 +186,7 @@ class WrongInput(unittest.TestCase):
     # cases and files
 
     def test_missing_case(self):
-        for utility in ("seedParticles", "mpmSolve", "smoothStress", "stressQuality", "splitParticles"):
+        for utility in ("seedParticles", "gravityLoading", "mpmSolve", "smoothStress", "stressQuality", "splitParticles"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-case", "nowhere", says=["nowhere"])
 

@@ -33,12 +33,18 @@ def solve(what, change):
     return Entry(what, "mpmSolve", change)
 
 
+def load(what, text, *changes):
+    """gravityLoading with this dictionary."""
+    return Entry(what, "gravityLoading", both(write(LOADING, text + "\n"), *changes))
+
+
 def cost(what, text):
     return Entry(what, "accuracyCost", None if text is None else write(COST, text + "\n"), seeded=False)
 
 
 GRID, SCHEMES, CONTROL, SEED = "system/gridDict", "system/mpmSchemes", "system/controlDict", "system/seedParticlesDict"
 SPLIT, CHECK = "system/splitParticlesDict", "system/checkIntegrationDict"
+LOADING = "system/gravityLoadingDict"
 MATERIAL, WALLS, GRAVITY = "constant/materialProperties", "constant/boundaryConditions", "constant/g"
 COLUMN, COST = "geometry/column.geo", "system/accuracyCostDict"
 MEASURE = " measures { runOut { history maxX; against finest; } }"
@@ -336,6 +342,28 @@ GROUPS = [
         Entry("bodies where there is one material", "mpmSolve", write("constant/contactProperties", "bodies (soil); mu 0.3;\n")),
         contact("contact in a method of smooth equations", "bodies (soil plane); mu 0.3;",
                 write(SCHEMES, "shape uGIMP; transfer FLIP; timeIntegration RK4;\n")),
+    ]),
+    ("Damping, shocks, merging, gravity loading", [
+        solve("a kind of damping that does not exist", append(SCHEMES, "damping { type rayleigh; }\n")),
+        solve("local damping of the whole force", append(SCHEMES, "damping { type local; coefficient 1; }\n")),
+        solve("a relaxation time of local damping", append(SCHEMES, "damping { type local; relaxationTime 1; coefficient 0.5; }\n")),
+        solve("local damping without its coefficient", append(SCHEMES, "damping { type local; }\n")),
+        solve("a bulk viscosity below zero", append(SCHEMES, "bulkViscosity { linear -0.06; }\n")),
+        solve("a bulk viscosity misspelt", append(SCHEMES, "bulkViscosity { quadratik 1.2; }\n")),
+        solve("merging what splitting makes", append(SCHEMES, "merging { threshold 1.5; }\n")),
+        solve("merging at a negative size", append(SCHEMES, "merging { threshold -1; }\n")),
+        solve("merging over a distance", append(SCHEMES, "merging { closeness 2; }\n")),
+        solve("merging every no steps", append(SCHEMES, "merging { interval 0; }\n")),
+        load("a damping of the loading that does not exist", "dynamicRelaxation { damping viscous; }"),
+        load("a coefficient of kinetic damping", "dynamicRelaxation { damping kinetic; coefficient 0.5; }"),
+        load("a loading that is never at rest", "dynamicRelaxation { tolerance 0; }"),
+        load("a loading of no steps", "maxSteps 0;"),
+        load("a loading of negative time", "maxTime -1;"),
+        load("a word of the loading misspelt", "keepPosition yes;"),
+        load("positions kept with a law that follows the deformation", "keepPositions yes;", elastic),
+        load("nothing to load with", "keepPositions yes;", remove(GRAVITY)),
+        Entry("a loading of a state of a run", "gravityLoading", attribute("step", 5)),
+        Entry("a loading of no state", "gravityLoading", seeded=False),
     ]),
     ("States", [
         Entry("no state at all", "mpmSolve", seeded=False),

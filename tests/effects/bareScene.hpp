@@ -33,8 +33,10 @@ struct BareScene : stepping::Scene
     explicit BareScene(const stepping::Scene& scene) : stepping::Scene(scene) {}
 
     static constexpr std::optional<Vector3> gravity{};
-    static constexpr std::optional<double> relaxationTime{}, filterRate{};
+    static constexpr std::optional<double> relaxationTime{}, localDamping{}, filterRate{};
     static constexpr std::optional<splitting::Rule> splitting{};
+    static constexpr std::optional<splitting::MergeRule> merging{};
+    static constexpr std::optional<treatment::BulkViscosity> bulkViscosity{};
     static constexpr Nothing<stepping::BodyForce> bodyForce{};
     static constexpr stepping::StressUpdate stressUpdate = stepping::StressUpdate::MUSL;
     static constexpr stepping::Transfer transfer = stepping::Transfer::FLIP;

@@ -1,0 +1,20 @@
+// A slope of 27 degrees and 2.5 m between smooth sides, on a rough base.
+SetFactory("OpenCASCADE");
+Point(1) = {0, 0, 0};
+Point(2) = {12, 0, 0};
+Point(3) = {12, 1.5, 0};
+Point(4) = {8.5, 1.5, 0};
+Point(5) = {3.5, 4, 0};
+Point(6) = {0, 4, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Physical Surface("soil") = {1};
+Physical Curve("base") = {1};
+Physical Curve("right") = {2};
+Physical Curve("left") = {6};
