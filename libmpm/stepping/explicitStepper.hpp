@@ -32,6 +32,8 @@ struct SceneOf
     using Type = Scene;
     template <class T>
     using List = std::vector<T>;
+    template <class T>
+    using Pointer = std::unique_ptr<T>;
     /// Is there nothing but the plain step of FLIP with a law that is elastic in rate form?
     static constexpr bool plain = false;
 };
@@ -328,17 +330,17 @@ class ExplicitStepper : public Stepper
     template <class T>
     using List = typename SceneOf<Shape>::template List<T>;
     List<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
-    std::optional<nodal::LocalDamping<dim>> localDamping_;
+    typename SceneOf<Shape>::template Pointer<nodal::LocalDamping<dim>> localDamping_;
     List<nodal::WallEffect<dim>> walls_;
     List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
-    bool wallsMove_ = false;
+    Maybe wallsMove_ = false;
     transfer::WallPlanes wallPlanes_; ///< of walls that stay where they are
 
     state::TileLayout layout_;
     state::TileGrid grid_;
-    std::unique_ptr<nodal::Contact<dim>> contact_; ///< null: one body
+    typename SceneOf<Shape>::template Pointer<nodal::Contact<dim>> contact_; ///< null: one body
     struct
     {
         std::vector<Record> projected;                                   ///< nodes before they were solved, by place
