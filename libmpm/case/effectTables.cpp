@@ -127,8 +127,6 @@ std::string boundText(const Effect& e, const stepping::PassTimes& passes, double
 std::string costText(const Effect& e, const std::optional<EffectPrices>& prices, const stepping::PassTimes& passes,
                      double stepSeconds)
 {
-    if (e.ownPass)
-        return boundText(e, passes, stepSeconds);
     if (!prices)
         return boundText(e, passes, stepSeconds);
     for (const auto& price : prices->list)

@@ -34,6 +34,8 @@ struct SceneOf
     using Type = Scene;
     template <class T>
     using List = std::vector<T>;
+    template <class T>
+    using Pointer = std::unique_ptr<T>;
     /// Is there nothing but the plain step of FLIP with a law that is elastic in rate form?
     static constexpr bool plain = false;
 };
@@ -263,7 +265,7 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
     double shareOfGridVelocity() const;
-    void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
+    [[gnu::noinline]] void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
     template <class W>
     [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
                                             double dt, bool moves);
@@ -340,14 +342,14 @@ class ExplicitStepper : public Stepper
     template <class T>
     using List = typename SceneOf<Shape>::template List<T>;
     List<std::unique_ptr<nodal::NodeEffect<dim>>> effects_;
-    std::optional<nodal::LocalDamping<dim>> localDamping_;
+    typename SceneOf<Shape>::template Pointer<nodal::LocalDamping<dim>> localDamping_;
     List<nodal::WallEffect<dim>> walls_;
     List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
     List<nodal::BodyContact<dim>> bodies_;
     List<nodal::AbsorbingBoundary<dim>> absorbing_;
-    bool wallsMove_ = false;
+    Maybe wallsMove_ = false;
     int actors_ = 0;                                    ///< moving walls and rigid bodies
     std::vector<nodal::ActorSums> actorSums_;           ///< actors_ a block
     std::vector<std::vector<nodal::HeldRow>> heldRows_; ///< nodes that bodies hold, by block
@@ -355,7 +357,7 @@ class ExplicitStepper : public Stepper
 
     state::TileLayout layout_;
     state::TileGrid grid_;
-    std::unique_ptr<nodal::Contact<dim>> contact_; ///< null: one body
+    typename SceneOf<Shape>::template Pointer<nodal::Contact<dim>> contact_; ///< null: one body
     struct
     {
         std::vector<Record> projected;                                  ///< nodes before they were solved, by place

@@ -29,7 +29,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
     if (scene.localDamping)
-        localDamping_.emplace(*scene.localDamping);
+        localDamping_ = std::make_unique<nodal::LocalDamping<dim>>(*scene.localDamping);
     for (const auto& wall : scene.walls)
     {
         walls_.emplace_back(wall, wall.motion ? actors_++ : -1);

@@ -83,7 +83,18 @@ bool ExplicitStepper<dim, Shape>::isDriven(const state::Tile& tile) const
         if (wall.side < 0 ? low <= plane + reach : high >= plane - reach)
             return true;
     }
-    return false;
+    for (const auto& body : bodies_)
+    {
+        bool near = true;
+        for (int a = 0; a < dim; ++a)
+        {
+            const double h = state_.grid.h, low = state_.grid.origin[a] + h * double(tile.window.lo[a] - 2);
+            near = near && body.high()[a] >= low && body.low()[a] <= low + h * double(tile.window.n[a] + 3);
+        }
+        if (near)
+            return true;
+    }
+    return scene_.gravityRamp && state_.time < scene_.gravityRamp->duration;
 }
 
 /// Tiles quiet at `looks` looks in a row fall asleep; in the first step those that do not move.

@@ -66,7 +66,7 @@ inline void storeColumns(HalfRecord (&r)[8], double* const (&out)[4], int g)
 }
 
 template <class Shape, class Meanwhile>
-void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box, Values<2>& out,
+[[gnu::noinline]] void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box, Values<2>& out,
                   Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
@@ -96,7 +96,7 @@ void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window, con
 }
 
 template <class Shape, class Meanwhile>
-void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box, Values<3>& out,
+[[gnu::noinline]] void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box, Values<3>& out,
                   Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
@@ -142,7 +142,7 @@ void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const s
 
 /// L[a * dim + b] = dw_a/dx_b [1/s].
 template <class Shape, class Meanwhile>
-void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
+[[gnu::noinline]] void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
                     double (&L)[4][lanes], Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
@@ -175,7 +175,7 @@ void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, c
 }
 
 template <class Shape, class Meanwhile>
-void gatherGradient(const ChunkWeights<3, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
+[[gnu::noinline]] void gatherGradient(const ChunkWeights<3, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
                     double (&L)[9][lanes], Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;

@@ -13,8 +13,15 @@ using namespace mpm;
 template <class T>
 struct Nothing
 {
+    Nothing() = default;
+    template <class Other>
+    Nothing& operator=(const Other&)
+    {
+        return *this;
+    }
     constexpr explicit operator bool() const { return false; }
-    const T* operator->() const { std::abort(); }
+    T* operator->() const { std::abort(); }
+    T& operator*() const { std::abort(); }
 };
 
 struct BareTreatment
@@ -38,7 +45,7 @@ struct BareScene : stepping::Scene
     static constexpr std::optional<splitting::Rule> splitting{};
     static constexpr std::optional<splitting::MergeRule> merging{};
     static constexpr std::optional<treatment::BulkViscosity> bulkViscosity{};
-    static constexpr Nothing<stepping::BodyForce> bodyForce{};
+    static constexpr Nothing<const stepping::BodyForce> bodyForce{};
     static constexpr stepping::StressUpdate stressUpdate = stepping::StressUpdate::MUSL;
     static constexpr stepping::Transfer transfer = stepping::Transfer::FLIP;
     static constexpr int transferOrder = 2;
@@ -82,6 +89,8 @@ struct SceneOf<counted::OnlyElastic>
     using Type = counted::BareScene;
     template <class T>
     using List = counted::NoList<T>;
+    template <class T>
+    using Pointer = counted::Nothing<T>;
     static constexpr bool plain = true;
 };
 } // namespace mpm::stepping

@@ -58,7 +58,7 @@ class Bootstrap(unittest.TestCase):
         return text.splitlines()
 
     def install_everything(self):
-        self.bootstrap("--packages-only")
+        self.bootstrap("--packages-only", "--tests")
         self.calls()
 
     def test_installs_what_is_missing_and_says_which(self):
