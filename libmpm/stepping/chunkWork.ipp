@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "stepping/affineWork.ipp"
 #include "stepping/explicitStepper.hpp"
+#include "stepping/extraWork.ipp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,52 +63,42 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile& tile, Index first, int count,
                                                 double dt, const Pass& pass)
 {
-    auto& p = state_.particles;
     ws.ahead.begin(first + lanes);
+    if (pass.prepares)
+        return prepareOverChunk(ws, tile, first, count, pass);
+    auto& p = state_.particles;
     const auto prefetch = [&] { ws.ahead.some(); };
     for (int a = 0; a < dim; ++a)
     {
         transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
-        if (!pass.treats)
-            transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
+        transfer::loadLanes(p.v[a].data() + first, count, ws.v[a]);
     }
-    if (!pass.gradient && !pass.pressure)
-        transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
+    transfer::loadLanesOrZero(p.mass.data() + first, count, ws.mass);
     loadDomains(ws, first, count);
 
-    if (pass.pressure)
-        return addPressure(ws, tile, first, count);
-    if (pass.velocity || pass.gathers || pass.filter || pass.relaxes() || pass.byStrainVelocity)
+    if (pass.velocity || pass.gathers || pass.byStrainVelocity)
         withWeights(ws, ws.x, [&](auto& w) __attribute__((always_inline)) {
             w.locate(tile.window); // as when these particles were projected
             lap(ws, &PassTimes::weights);
-            if (pass.relaxes())
-                return relaxationRound(ws, w, tile, first, count, pass.round);
-            if (pass.filter || pass.filtered)
-                gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
             if (pass.velocity)
             {
+                if (pass.filtered)
+                    gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
                 gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
                 advanceVelocity(ws, first, count, dt, pass);
                 if (pass.affine)
                     advanceAffine(ws, w, tile, first, count);
                 lap(ws, &PassTimes::toParticles);
             }
-            if (pass.filter || pass.reproject)
+            if (pass.reproject)
             {
-                ws.momentum.build(ws.mass, pass.filter ? ws.filtered.v : ws.v);
-                projectMomentum(ws, w, tile, ws.x, first, count, pass.reproject && pass.affine);
+                ws.momentum.build(ws.mass, ws.v);
+                projectMomentum(ws, w, tile, ws.x, first, count, pass.affine);
             }
             if (pass.byStrainVelocity)
             {
                 gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch); // v* and w
-                for (int a = 0; a < dim; ++a)
-                {
-                    for (int l = 0; l < lanes; ++l)
-                        ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.a[a][l];
-                    transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
-                }
-                lap(ws, &PassTimes::toParticles);
+                moveByStrainVelocity(ws, first, count, dt);
             }
             if (pass.gathers)
             {
@@ -115,8 +106,6 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
                 lap(ws, &PassTimes::toParticles);
             }
         });
-    if (pass.gradient)
-        addVolumeChange(ws, tile, first, count);
     if (pass.strain)
     {
         updateStress(ws, tile, first, count, dt);
@@ -147,43 +136,15 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
             transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
             for (int k = 0; k < stressSize<dim>; ++k)
                 transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
-            if (conjugate())
-                takeAveragePressure(ws, tile, x);
-            if (viscous())
-                transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
-            if (bulkViscous())
-                transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
         }
-        if (bulkViscous())
-            for (int a = 0; a < dim; ++a)
-                for (int l = 0; l < lanes; ++l)
-                    ws.law.stress[a][l] += ws.bulkViscous[l];
-        if (viscous())
-            for (int a = 0; a < dim; ++a)
-                for (int l = 0; l < lanes; ++l)
-                    ws.law.stress[a][l] += ws.viscous[l];
+        if (pass.addsStress)
+            addStressOfForces(ws, tile, x, first, count, pass);
         ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
         projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
-        if (pass.affine)
-            projectAffine<Record>(ws, w, tile, x, first, count);
-        if (scene_.bodyForce)
-            projectBodyForce(ws, w, tile, first, count, pass.moves ? dt : 0, pass.moves);
+        if (pass.addsForce)
+            addForces(ws, w, tile, x, first, count, dt, pass);
         lap(ws, &PassTimes::toGrid);
     });
-}
-
-/// m b at the place and time of the coming step.
-template <int dim, class Shape>
-template <class W>
-void ExplicitStepper<dim, Shape>::projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first,
-                                                   int count, double dt, bool moves)
-{
-    auto& p = state_.particles;
-    alignas(64) double b[3][lanes];
-    for (int a = 0; a < dim && moves; ++a) // the old positions are not needed any more
-        transfer::storeLanes(p.x[a].data() + first, count, ws.xNew[a]);
-    scene_.bodyForce->acceleration(p, first, count, state_.time + dt, b);
-    transfer::projectBodyForce<dim>(w, ws.mass, b, count, grid_.template window<Record>(tile), tile.window);
 }
 
 /// The columns a pass reads, in about the order it reads them.
@@ -195,7 +156,7 @@ void ExplicitStepper<dim, Shape>::listColumns(transfer::Prefetch& ahead, const P
     for (int a = 0; a < dim; ++a)
     {
         ahead.add(p.x[a].data());
-        if (!pass.treats)
+        if (!pass.prepares)
             ahead.add(p.v[a].data());
         if constexpr (Shape::hasDomain) // CPDI: F with it, below
             ahead.add(Shape::followsStretch ? domain_[a].data() : p.length0[a].data());
@@ -333,15 +294,6 @@ void ExplicitStepper<dim, Shape>::checkInside(Workspace& ws, const Vectors& x) c
             ws.sums.stray = true;
 }
 
-/// alpha of a PIC rate, or of a filter that is mixed in at a rate; 0 where there is none in this step.
-template <int dim, class Shape>
-double ExplicitStepper<dim, Shape>::shareOfGridVelocity() const
-{
-    if (scene_.filterRate)
-        return filters() ? -std::expm1(-*scene_.filterRate * double(scene_.filterInterval) * kick_) : 0;
-    return scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
-}
-
 /// FLIP: v_p += dt sum N a, and with a PIC rate r, v_p <- (1 - alpha) v_p + alpha sum N v*, alpha = 1 - exp(-r dt).
 /// Other transfers: v_p = sum N v*, XPIC and FMPM with v* filtered. New positions x + dt sum N v* go to ws.xNew and to
 /// next_.
@@ -350,20 +302,15 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
 {
     auto& p = state_.particles;
     alignas(64) double vv[lanes];
+    if (pass.blends)
+        blendVelocity(ws, dt, pass);
     for (int a = 0; a < dim; ++a)
     {
-        const auto& vGrid = pass.filtered ? ws.filtered.v[a] : ws.value.v[a];
-        const auto& moving = pass.replaces ? vGrid : ws.value.v[a];
-        if (pass.replaces)
-            std::copy_n(vGrid, lanes, ws.v[a]);
-        else
-            for (int l = 0; l < lanes; ++l)
-                ws.v[a][l] += kick_ * ws.value.a[a][l];
-        if (pass.mixes)
-            for (int l = 0; l < lanes; ++l)
-                ws.v[a][l] += pass.alpha * (vGrid[l] - ws.v[a][l]);
-        for (int l = 0; l < lanes; ++l)
-            ws.xNew[a][l] = ws.x[a][l] + dt * moving[l];
+        for (int l = 0; l < lanes && !pass.blends; ++l)
+        {
+            ws.v[a][l] += kick_ * ws.value.a[a][l];
+            ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.v[a][l];
+        }
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
     }

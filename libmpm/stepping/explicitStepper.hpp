@@ -14,6 +14,7 @@
 #include "nodal/localDamping.hpp"
 #include "nodal/traction.hpp"
 #include "nodal/wall.hpp"
+#include "stepping/sceneOf.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
 #include "transfer/affine.hpp"
@@ -26,27 +27,6 @@
 
 namespace mpm::stepping
 {
-/// What the stepper of a shape keeps its scene in. A scene says at run time what is absent; tests/effects has one that
-/// says so at compile time, to count what absent effects cost.
-template <class Shape>
-struct SceneOf
-{
-    using Type = Scene;
-    template <class T>
-    using List = std::vector<T>;
-    template <class T>
-    using Pointer = std::unique_ptr<T>;
-    /// Is there nothing but the plain step of FLIP with a law that is elastic in rate form?
-    static constexpr bool plain = false;
-};
-
-/// A bool that is false for the compiler already.
-struct Never
-{
-    constexpr Never(bool = false) {}
-    constexpr operator bool() const { return false; }
-};
-
 template <int dim, class Shape>
 class ExplicitStepper : public Stepper
 {
@@ -105,13 +85,15 @@ class ExplicitStepper : public Stepper
         bool everyone = false;           ///< also those that sleep
 
         // What the scene adds, asked once a pass (completed()): chunks are many.
-        Maybe treats = false;           ///< one of the first three
+        Maybe prepares = false;         ///< pressure, a round, gradient or filter
         bool gathers = false;           ///< the velocity gradient
         Maybe filtered = false;         ///< take the filtered velocity
         Maybe byStrainVelocity = false; ///< positions move with w
         Maybe affine = false;           ///< particles carry an affine field
         Maybe replaces = false;         ///< v_p = sum N v, in place of v_p += dt sum N a
-        Maybe mixes = false;            ///< alpha > 0
+        Maybe blends = false;           ///< replaces, or alpha > 0
+        Maybe addsStress = false;       ///< forces see more of stress than particles have
+        Maybe addsForce = false;        ///< more is projected with the forces
         double alpha = 0;               ///< share of the grid's velocity
     };
     Pass completed(Pass pass) const;
@@ -119,6 +101,8 @@ class ExplicitStepper : public Stepper
     bool hyperelastic() const { return !plain && anyHyperelastic_; }
     bool hasHistory() const { return !plain && anyHistory_; }
     bool plastic() const { return !plain && anyPlastic_; }
+    /// Is anything done to strains and stresses beside the law?
+    bool treated() const { return !plain && treated_; }
     bool averages() const { return scene_.treatment.averaging.has_value(); }
     bool viscous() const { return scene_.treatment.hasViscosity(); }
     bool bulkViscous() const { return scene_.bulkViscosity.has_value(); }
@@ -197,6 +181,7 @@ class ExplicitStepper : public Stepper
     template <class Change>
     void filterRow(Change&& change);
     void strainVelocities(double dt, bool secondProjection);
+    void projectAgainToRow(const nodal::NodeRow<dim>& row, const state::Block& block);
     static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
     void swapTrial(nodal::NodeRow<dim>& row) const;
@@ -256,6 +241,12 @@ class ExplicitStepper : public Stepper
     void renewBulkViscosity(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes]);
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
+    [[gnu::noinline]] void takeAveragedGradient(Workspace& ws, const state::Tile& tile, Index first, int count);
+    [[gnu::noinline]] void treatBefore(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
+                                       const constitutive::StressLanes<dim>& strainOfForces, double (&trace)[lanes],
+                                       double (&workOfForces)[lanes]);
+    [[gnu::noinline]] void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
+                                      double (&workOfForcesAfter)[lanes]);
     void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
@@ -264,10 +255,19 @@ class ExplicitStepper : public Stepper
     void listColumns(transfer::Prefetch& ahead, const Pass& pass) const;
     template <class Body>
     void withWeights(Workspace& ws, const Vectors& x, Body&& body) const;
+    [[gnu::noinline]] void prepareOverChunk(Workspace& ws, const state::Tile& tile, Index first, int count,
+                                            const Pass& pass);
+    void moveByStrainVelocity(Workspace& ws, Index first, int count, double dt);
+    [[gnu::noinline]] void addStressOfForces(Workspace& ws, const state::Tile& tile, const Vectors& x, Index first,
+                                             int count, const Pass& pass);
+    template <class W>
+    [[gnu::noinline]] void addForces(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first,
+                                     int count, double dt, const Pass& pass);
     double shareOfGridVelocity() const;
+    [[gnu::noinline]] void blendVelocity(Workspace& ws, double dt, const Pass& pass) const;
     [[gnu::noinline]] void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
     template <class W>
-    [[gnu::noinline]] void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
+    void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
                                             double dt, bool moves);
     template <class W>
     void projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count,
@@ -390,6 +390,7 @@ class ExplicitStepper : public Stepper
     std::vector<std::array<double, 2>> moduli_; ///< 1/(2 K) and 1/(4 G) of each material
     bool anyHistory_ = false;                   ///< is there a material whose law usesHistory()?
     bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
+    bool treated_ = false;
     bool anyPlastic_ = false;                   ///< is there a material that can yield?
     bool arranged_ = false;                     ///< tiles belong to the particles as they stand
     bool projected_ = false;                    ///< windows hold the first projection of the coming step

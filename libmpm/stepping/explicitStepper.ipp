@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "stepping/bulkViscosity.ipp"
+#include "stepping/books.ipp"
 #include "stepping/chunkWork.ipp"
 #include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
@@ -270,20 +271,6 @@ void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool m
 }
 
 template <int dim, class Shape>
-auto ExplicitStepper<dim, Shape>::completed(Pass pass) const -> Pass
-{
-    pass.treats = pass.pressure || pass.gradient || pass.relaxes();
-    pass.gathers = pass.gradient || (pass.strain && !averages());
-    pass.filtered = filters() && pass.velocity;
-    pass.byStrainVelocity = scene_.moveByStrainVelocity && pass.strain && pass.moves;
-    pass.affine = affine();
-    pass.replaces = scene_.transfer != Transfer::FLIP && !scene_.filterRate;
-    pass.alpha = shareOfGridVelocity();
-    pass.mixes = pass.alpha > 0;
-    return pass;
-}
-
-template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::particlePass(double dt, const Pass& wanted)
 {
     const Pass pass = completed(wanted);
@@ -330,116 +317,6 @@ void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
     for (std::size_t k = 0; k < tractions_.size(); ++k)
         nodal::movePatch<dim>(state_.patches[tractionPatch_[k]], state_.grid, grid_, tractions_[k].body(),
                               smallestMass_, dt);
-}
-
-/// Adds the tiles' sums in the order of the tiles and stops at the first bad particle.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::book(const Pass& pass)
-{
-    if (scene_.bodyForce)
-        if (const auto fault = scene_.bodyForce->takeFault(); !fault.empty())
-            throw StepError(fmt::format("step {} at time {:.9g} s: {}", state_.step, state_.time, fault));
-    TileSums total;
-    for (const auto& s : tileSums_)
-    {
-        if (s.badParticle >= 0)
-            fail(s.badParticle,
-                 "is turned inside out or no longer finite (det F <= 0): a smaller deltaT, finer particles "
-                 "(splitting) or a stiffer material is needed there");
-        total.kinetic += s.kinetic;
-        total.plasticWork += s.plasticWork;
-        total.apexVolume += s.apexVolume;
-        total.bodyForceWork += s.bodyForceWork;
-        total.bodyForceEnd += s.bodyForceEnd;
-        total.strainWorkBefore += s.strainWorkBefore;
-        total.strainWork += s.strainWork;
-        total.strainEnergy += s.strainEnergy;
-        total.finiteStrainWork += s.finiteStrainWork;
-        total.relaxationLoss += s.relaxationLoss;
-        total.averagingLoss += s.averagingLoss;
-        total.viscosityLoss += s.viscosityLoss;
-        total.gapWork += s.gapWork;
-        total.bulkViscosityLoss += s.bulkViscosityLoss;
-        for (int a = 0; a < dim; ++a)
-            total.momentum[a] += s.momentum[a];
-        total.fastest = std::max(total.fastest, s.fastest);
-        total.largestJacobian = std::max(total.largestJacobian, s.largestJacobian);
-        total.apexReturns += s.apexReturns;
-        total.cappedDomains += s.cappedDomains;
-        total.smallestJacobian = std::min(total.smallestJacobian, s.smallestJacobian);
-        total.maxYield = std::max(total.maxYield, s.maxYield);
-        total.stray = total.stray || s.stray;
-    }
-    auto& ledger = state_.ledger;
-    if (pass.velocity)
-    {
-        ledger.transferLoss -= total.kinetic - ledger.kineticEnergy;
-        ledger.kineticEnergy = total.kinetic;
-        ledger.bodyForceWork += total.bodyForceWork;
-        work_.ofForcesBefore += 2 * total.bodyForceWork - total.bodyForceEnd;
-        work_.ofForces += total.bodyForceEnd;
-        report_.momentum = total.momentum;
-        report_.largestSpeed = std::max(std::sqrt(total.fastest), actorSpeed());
-    }
-    if (pass.strain)
-    {
-        work_.ofStrainsBefore = total.strainWorkBefore;
-        work_.ofStrains = total.strainWork;
-        ledger.plasticDissipation += total.plasticWork;
-        ledger.finiteStrainWork += total.finiteStrainWork;
-        ledger.relaxationLoss += total.relaxationLoss;
-        ledger.averagingLoss += total.averagingLoss;
-        ledger.viscosityLoss += total.viscosityLoss;
-        ledger.gapWork += total.gapWork;
-        ledger.bulkViscosityLoss += total.bulkViscosityLoss;
-        report_.strainEnergy = total.strainEnergy + restingEnergy_;
-        state_.largestJacobian = total.largestJacobian;
-        ledger.apexVolume += total.apexVolume;
-        ledger.apexReturns += total.apexReturns;
-        report_.smallestJacobian = total.smallestJacobian;
-        report_.maxYieldViolation = total.maxYield;
-        if (Shape::followsStretch || hasCorners)
-            report_.cappedDomains = total.cappedDomains;
-    }
-    if (pass.then != Project::nothing)
-    {
-        projected_ = true;
-        stray_ = total.stray;
-    }
-    if (pass.pressure)
-        stray_ = total.stray;
-}
-
-/// The stress works on three velocities: v_i and v* in the nodal equations, w in the strains. What it does on the
-/// changes that projections make between them is lost in transfer, half of it belonging to either end of a step:
-///     USL, MUSL    1/2 sigma_n : (D* - D_w) and, from one step to the next, 1/2 sigma_n : (D_i - D_w of the last step)
-///     USF          1/2 sigma_n+1 : (D_i - D_w) and 1/2 sigma_n : (D* of the last step - D_w)
-/// What is left of the mismatch is a function of the state, the staggering: velocities live half a step off the
-/// stresses.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
-{
-    auto& ledger = state_.ledger;
-    const bool strainsFirst = scene_.stressUpdate == StressUpdate::USF;
-    // the last step's work on this step's stress, and the same work as this step finds it
-    const double found = strainsFirst ? work_.ofStrainsBefore : work_.ofForcesBefore;
-    if (state_.step == 0)
-    {
-        ledger.pendingWork = found;
-        ledger.initialStaggering = (strainsFirst ? -0.5 : 0.5) * found;
-    }
-    if (kick_ != dt) // half a kick at the start, then strains over the whole step
-    {
-        ledger.initialStaggering = 0.5 * (work_.ofForcesBefore - work_.ofForces);
-        work_.ofForces *= dt / kick_;
-    }
-    const double sameStep = state_.step == 0 ? 1 : state_.deltaT / dt;
-    if (strainsFirst)
-        ledger.transferLoss += 0.5 * (work_.ofForcesBefore - work_.ofStrains + ledger.pendingWork - sameStep * found);
-    else
-        ledger.transferLoss += 0.5 * (work_.ofForces - work_.ofStrainsBefore + sameStep * found - ledger.pendingWork);
-    ledger.pendingWork = strainsFirst ? work_.ofForces : work_.ofStrains;
-    ledger.staggering = (strainsFirst ? -0.5 : 0.5) * ledger.pendingWork;
 }
 
 template <int dim, class Shape>

@@ -83,42 +83,14 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     // What the grid's forces do work on is L as it is; what the law sees is L over the mid-step configuration.
     alignas(64) double workOfForces[lanes], workOfForcesAfter[lanes];
     constitutive::StressLanes<dim> strainOfForces;
-    if (averages())
-        for (int k = 0; k < dim * dim; ++k)
-            transfer::loadLanes(gradient_[k].data() + first, count, ws.L[k]);
-    if (conjugate())
-        takeAverage(ws, tile, first, count);
+    if (treated())
+        takeAveragedGradient(ws, tile, first, count);
     constitutive::strainIncrement(ws.L, dt, strainOfForces);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
     sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
     alignas(64) double trace[lanes]; // of the strain forces work on, where a viscosity asks
-    if (viscous() || bulkViscous())
-        traceOfForces(ws, dt, strainOfForces, trace);
-    if (viscous())
-    {
-        transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws.viscous, trace, ws.volumeBefore);
-        sums.strainWorkBefore += work;
-        sums.viscosityLoss += 0.5 * work;
-    }
-    if (bulkViscous())
-    {
-        transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
-        const double work = viscousWork(ws.bulkViscous, trace, ws.volumeBefore);
-        sums.strainWorkBefore += work;
-        sums.bulkViscosityLoss += 0.5 * work;
-    }
-    if (relaxes())
-    {
-        relaxStress(ws, first, count, dt, strainOfForces);
-        workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
-    }
-    const bool spreads = averages() && !conjugate();
-    if (spreads)
-    {
-        takeAverage(ws, tile, first, count);
-        loseToAverage(ws, dt, ws.volumeBefore, workOfForces);
-    }
+    if (treated())
+        treatBefore(ws, tile, first, count, dt, strainOfForces, trace, workOfForces);
     constitutive::toMidStep(scene_.stressUpdate == StressUpdate::USF ? constitutive::TakenOver::end
                                                                      : constitutive::TakenOver::start,
                             dt, ws.L);
@@ -146,7 +118,8 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     }
     if (hasHistory())
         transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
-    if (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() || scene_.treatment.followsFlow())
+    if (treated() && (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() ||
+                      scene_.treatment.followsFlow()))
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
@@ -187,25 +160,8 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
-    if (viscous())
-    {
-        loadViscosity(ws, first, count);
-        for (int l = 0; l < lanes; ++l)
-            ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
-        transfer::storeLanes(p.viscousStress.data() + first, count, ws.viscous);
-        const double work = viscousWork(ws.viscous, trace, ws.volume);
-        sums.strainWork += work;
-        sums.viscosityLoss += 0.5 * work;
-    }
-    if (bulkViscous())
-    {
-        renewBulkViscosity(ws, first, count, dt, trace);
-        const double work = viscousWork(ws.bulkViscous, trace, ws.volume);
-        sums.strainWork += work;
-        sums.bulkViscosityLoss += 0.5 * work;
-    }
-    if (spreads)
-        loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
+    if (treated())
+        treatAfter(ws, first, count, dt, trace, workOfForcesAfter);
     elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
     if (hyperelastic())
     {

@@ -267,16 +267,12 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {
     Clock clock(times_.nodal);
+    if (secondProjection && walls_.empty() && !contact_)
+        return forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) { projectAgainToRow(row, block); });
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         row.dt = dt;
         if (secondProjection)
-        {
-            const nodal::NodeRow<dim> at = row; // walls see the row: a copy of it stays in registers
-            HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
-            sumWindows(at, block, sum);
-            for (Index i = at.begin; i < at.end; ++i)
-                setStrainVelocity(at, i, sum[i - at.begin]);
-        }
+            projectAgainToRow(row, block);
         else if (!touches() && !contact_ && !rests())
         {
             sumNodes<transfer::Momentum>(row, block);
@@ -298,6 +294,16 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
     });
     if (contact_)
         strainTogether(secondProjection);
+}
+
+/// w of a row of nodes from the second projection.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::projectAgainToRow(const nodal::NodeRow<dim>& row, const state::Block& block)
+{
+    HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
+    sumWindows(row, block, sum);
+    for (Index i = row.begin; i < row.end; ++i)
+        setStrainVelocity(row, i, sum[i - row.begin]);
 }
 
 template <int dim, class Shape>

@@ -1,6 +1,7 @@
 // What the remedies for erratic stresses share: treatment/{volumetricAveraging,stressRelaxation,tensionGap}.hpp have
 // the equations. Absent, they cost nothing.
 #pragma once
+#include "stepping/lawWork.ipp"
 #include "stepping/stressRelaxation.ipp"
 #include "stepping/timeStep.hpp"
 #include "stepping/volumetricAveraging.ipp"
@@ -13,6 +14,7 @@ namespace mpm::stepping
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::prepareTreatment()
 {
+    treated_ = scene_.treatment.any() || scene_.bulkViscosity;
     state_.particles.keep(&state::Particles::tensionGap, scene_.treatment.tensionGap);
     state_.particles.keep(&state::Particles::dilationRate, scene_.treatment.averagesElasticPart());
     state_.particles.keep(&state::Particles::flowMemory, scene_.treatment.followsFlow());
@@ -64,6 +66,80 @@ void ExplicitStepper<dim, Shape>::openTreatment(Workspace& ws, const state::Tile
     }
     if (pass.round == Round::project || pass.round == Round::again)
         grid_.template clearWindow<Record>(tile);
+}
+
+/// The velocity gradients a pass of its own has left, as an average changes them for forces and strains alike.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::takeAveragedGradient(Workspace& ws, const state::Tile& tile, Index first, int count)
+{
+    if (averages())
+        for (int k = 0; k < dim * dim; ++k)
+            transfer::loadLanes(gradient_[k].data() + first, count, ws.L[k]);
+    if (conjugate())
+        takeAverage(ws, tile, first, count);
+}
+
+/// What is done before the law: work of viscosities, relaxation, averages of the strain alone.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::treatBefore(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
+                                              const constitutive::StressLanes<dim>& strainOfForces,
+                                              double (&trace)[lanes], double (&workOfForces)[lanes])
+{
+    auto& p = state_.particles;
+    auto& sums = ws.sums;
+    if (viscous() || bulkViscous())
+        traceOfForces(ws, dt, strainOfForces, trace);
+    if (viscous())
+    {
+        transfer::loadLanes(p.viscousStress.data() + first, count, ws.viscous);
+        const double work = viscousWork(ws.viscous, trace, ws.volumeBefore);
+        sums.strainWorkBefore += work;
+        sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        transfer::loadLanes(p.bulkViscousStress.data() + first, count, ws.bulkViscous);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volumeBefore);
+        sums.strainWorkBefore += work;
+        sums.bulkViscosityLoss += 0.5 * work;
+    }
+    if (relaxes())
+    {
+        relaxStress(ws, first, count, dt, strainOfForces);
+        workOfStrain<dim>(ws.law.stress, strainOfForces, workOfForces);
+    }
+    if (averages() && !conjugate())
+    {
+        takeAverage(ws, tile, first, count);
+        loseToAverage(ws, dt, ws.volumeBefore, workOfForces);
+    }
+}
+
+/// What is done after the law: viscosities of the next forces, what averages lost.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::treatAfter(Workspace& ws, Index first, int count, double dt,
+                                             const double (&trace)[lanes], double (&workOfForcesAfter)[lanes])
+{
+    auto& sums = ws.sums;
+    if (viscous())
+    {
+        loadViscosity(ws, first, count);
+        for (int l = 0; l < lanes; ++l)
+            ws.viscous[l] = -dim * ws.viscosity[l] * ws.spread[l];
+        transfer::storeLanes(state_.particles.viscousStress.data() + first, count, ws.viscous);
+        const double work = viscousWork(ws.viscous, trace, ws.volume);
+        sums.strainWork += work;
+        sums.viscosityLoss += 0.5 * work;
+    }
+    if (bulkViscous())
+    {
+        renewBulkViscosity(ws, first, count, dt, trace);
+        const double work = viscousWork(ws.bulkViscous, trace, ws.volume);
+        sums.strainWork += work;
+        sums.bulkViscosityLoss += 0.5 * work;
+    }
+    if (averages() && !conjugate())
+        loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
 }
 
 /// The laws with tension gaps; what they leave of plastic volume change, and that they yielded.
