@@ -485,7 +485,5 @@ GROUPS = [
         solve("a ramp of negative time", append(GRAVITY, "ramp { duration -1; }\n")),
         solve("a ramp of no known shape", append(GRAVITY, "ramp { duration 1; shape sine; }\n")),
         solve("a ramp without its time", append(GRAVITY, "ramp { shape smooth; }\n")),
-        solve("Runge-Kutta steps with a ramp",
-              both(elastic, append(GRAVITY, "ramp { duration 1; }\n"), append(SCHEMES, "timeIntegration RK4;\n"))),
     ]),
 ]
