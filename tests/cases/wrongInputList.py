@@ -375,6 +375,7 @@ GROUPS = [
         load("a word of the loading misspelt", "keepPosition yes;"),
         load("positions kept with a law that follows the deformation", "keepPositions yes;", elastic),
         load("nothing to load with", "keepPositions yes;", remove(GRAVITY)),
+        load("a loading by gravity that comes on later", "keepPositions yes;", append(GRAVITY, "ramp { duration 1; }\n")),
         Entry("a loading of a state of a run", "gravityLoading", attribute("step", 5)),
         Entry("a loading of no state", "gravityLoading", seeded=False),
     ]),
