@@ -21,7 +21,8 @@ std::string EffectRun::energy(double joule) const
 double EffectRun::supplied() const
 {
     const auto& l = state.ledger;
-    return std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) + l.motionSupply + l.initialKineticEnergy +
+    return std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) + l.motionSupply +
+           l.initialKineticEnergy +
            l.initialStrainEnergy;
 }
 
@@ -35,7 +36,7 @@ const std::vector<Effect>& effectCatalogue()
 {
     static const std::vector<Effect> all = [] {
         std::vector<Effect> list;
-        for (auto family : {lawEffects, boundaryEffects, contactEffects, processEffects, transferEffects,
+        for (auto family : {lawEffects, boundaryEffects, motionEffects, contactEffects, processEffects, transferEffects,
                             treatmentEffects})
             for (auto& effect : family())
                 list.push_back(std::move(effect));

@@ -9,7 +9,7 @@
 ///              no particle reaches. Results are those of base(scene), bit for bit or to round-off for a reason that is
 ///              told (tests/effects/neutralValues.cpp); what it costs is what naming it costs before it acts
 ///
-/// A new effect is one entry in the list of its family (lawEffects.cpp, boundaryEffects.cpp, contactEffects.cpp,
+/// A new effect is one entry in the list of its family (lawEffects.cpp, boundaryEffects.cpp, motionEffects.cpp, contactEffects.cpp,
 /// processEffects.cpp, transferEffects.cpp, treatmentEffects.cpp): copy a neighbour. Tests and tables follow; renew
 /// docs/effects.md by etc/effectsTable.
 #include "stepping/stepper.hpp"
@@ -60,7 +60,7 @@ struct EffectRun
     std::string energy(double joule) const;
     /// The same with its share of the work supplied: "12.3 kJ/m (4.1 % of the work supplied)".
     std::string share(double joule) const;
-    /// Work of gravity, loads, body forces and moving walls, and the energy the body had to begin with [J].
+    /// Work of gravity, loads, body forces and motions, and the energy the body had to begin with [J].
     double supplied() const;
 };
 
@@ -113,6 +113,7 @@ EffectScene withNeutral(const Effect& effect, EffectScene scene);
 /// The lists of the families.
 std::vector<Effect> lawEffects();
 std::vector<Effect> boundaryEffects();
+std::vector<Effect> motionEffects();
 std::vector<Effect> contactEffects();
 std::vector<Effect> processEffects();
 std::vector<Effect> transferEffects();

@@ -39,7 +39,7 @@ LawExtras extrasOf(const Law& law)
     if (const auto* cone = dynamic_cast<const DruckerPrager*>(&law))
         return {cone->substep(), cone->parameters().tensionCutOff, {}};
     if (const auto* metal = dynamic_cast<const VonMises*>(&law))
-        return {.substep = metal->substep()};
+        return {metal->substep(), {}, {}};
     return {};
 }
 

@@ -95,13 +95,7 @@ Effect localDampingEffect()
     e.base = [](EffectScene& s) { s.scene.relaxationTime.reset(); };
     e.neutral = [](EffectScene& s) { s.scene.localDamping = 0.0; };
     e.neutralText = "coefficient 0";
-    e.pass = &stepping::PassTimes::nodal;
-    e.did = [](const EffectRun& run) -> Deed {
-        const double work = run.grown(&Ledger::dampingDissipation);
-        if (work == 0)
-            return {0, "J", "0 J dissipated", false};
-        return {work, "J", "took " + run.share(work)};
-    };
+    e.did = dampingDeed;
     return e;
 }
 
@@ -143,60 +137,6 @@ Effect mergingEffect()
         if (merges == 0)
             return {0, "particles", "0 pairs merged", false};
         return {double(merges), "particles", fmt::format("{} pairs merged", merges)};
-    };
-    return e;
-}
-
-Effect localDampingEffect()
-{
-    Effect e{.name = "localDamping",
-             .word = "damping { type local; ... }",
-             .file = "system/mpmSchemes",
-             .help = "a force against the velocity, proportional to the force out of balance"};
-    e.uses = [](const EffectScene& s) { return s.scene.localDamping.has_value(); };
-    e.without = [](EffectScene& s) { s.scene.localDamping.reset(); };
-    e.neutral = [](EffectScene& s) { s.scene.localDamping = 0; };
-    e.neutralText = "coefficient 0";
-    e.did = dampingDeed;
-    return e;
-}
-
-Effect bulkViscosityEffect()
-{
-    Effect e{.name = "bulkViscosity",
-             .word = "bulkViscosity { ... }",
-             .file = "system/mpmSchemes",
-             .help = "a pressure against compression that spreads shocks over a few cells",
-             .fields = {"bulkViscousStress"}};
-    e.uses = [](const EffectScene& s) { return s.scene.bulkViscosity.has_value(); };
-    e.without = [](EffectScene& s) { s.scene.bulkViscosity.reset(); };
-    e.neutral = [](EffectScene& s) { s.scene.bulkViscosity = treatment::BulkViscosity{0, 0}; };
-    e.neutralText = "linear 0, quadratic 0";
-    e.pass = &stepping::PassTimes::law;
-    e.did = [](const EffectRun& run) -> Deed {
-        const double energy = run.grown(&Ledger::bulkViscosityLoss);
-        if (energy == 0)
-            return {0, "J", "0 J taken", false};
-        return {energy, "J", "took " + run.share(energy)};
-    };
-    return e;
-}
-
-Effect mergingEffect()
-{
-    Effect e{.name = "merging",
-             .word = "merging { ... }",
-             .file = "system/mpmSchemes",
-             .help = "particles that were split become one again where what stretched them is gone",
-             .fields = {"family"}};
-    e.uses = [](const EffectScene& s) { return s.scene.merging.has_value(); };
-    e.without = [](EffectScene& s) { s.scene.merging.reset(); };
-    e.neutral = [](EffectScene& s) { s.scene.merging = splitting::MergeRule{.threshold = 0}; };
-    e.neutralText = "threshold 0";
-    e.pass = &stepping::PassTimes::split;
-    e.did = [](const EffectRun& run) -> Deed {
-        const Index merges = run.grown(&Ledger::merges);
-        return {double(merges), "pairs", fmt::format("{} pairs merged", merges), merges > 0};
     };
     return e;
 }

@@ -134,6 +134,73 @@ void refuseSecondWall(const Dictionary& all, const nodal::Wall& wall, const std:
                             wall.name, wall.side < 0 ? '-' : '+', axisNames[std::size_t(wall.axis)], other.name));
 }
 
+/// The plane of a boundary: its own, or that of the patch of its name.
+Plane readOwnPlane(const Dictionary& all, const Dictionary& d, const std::string& name, const state::State& state)
+{
+    const int dim = state.particles.dim;
+    Plane plane;
+    if (const Dictionary* own = d.findDict("plane", "the boundary's plane; default: that of the boundary of this name"))
+        plane = readPlane(*own, dim);
+    else if (const auto* patch = findPatch(state, name))
+        plane = planeOfPatch(all, *patch, dim, state.grid.h);
+    else
+        failUnknownPatch(all, name, state);
+    if (state.grid.periodic[std::size_t(plane.axis)])
+        throw InputError(all.where(name),
+                         fmt::format("{}: found a wall normal to {}, along which the grid is periodic; allowed: walls "
+                                     "normal to other axes, or no periodic in system/gridDict",
+                                     name, axisNames[std::size_t(plane.axis)]));
+    return plane;
+}
+
+/// The plane of nodes at a position; between two of them is an error.
+Index planeOfNodes(const Dictionary& all, const std::string& name, const Plane& plane, const state::GridBox& grid,
+                   const char* otherwise)
+{
+    const double index = (plane.position - grid.origin[std::size_t(plane.axis)]) / grid.h;
+    if (std::abs(index - std::round(index)) > 1e-6)
+    {
+        const auto at = [&](double i) { return grid.origin[std::size_t(plane.axis)] + grid.h * i; };
+        throw InputError(all.where(name),
+                         fmt::format("{}: found a wall at {} = {:g}, between planes of nodes; allowed: the nearest are "
+                                     "{:.10g} and {:.10g} (or move min of system/gridDict{})",
+                                     name, axisNames[std::size_t(plane.axis)], plane.position, at(std::floor(index)),
+                                     at(std::floor(index) + 1), otherwise));
+    }
+    return Index(std::lround(index));
+}
+
+nodal::Absorbing readAbsorbing(const Dictionary& all, const Dictionary& d, const std::string& name,
+                               const state::State& state, const stepping::Scene& scene)
+{
+    const auto word = d.get<std::string>({"material", "of the soil beside the boundary, whose impedance it has"});
+    const constitutive::Material* material = nullptr;
+    std::vector<std::string> names;
+    for (const auto& m : scene.materials)
+    {
+        names.push_back(m.name);
+        material = m.name == word ? &m : material;
+    }
+    if (!material)
+        d.fail("material", "'" + word + "'", joinWords(names));
+    const double shearSpeed = std::sqrt(material->law->shearModulus() / material->density);
+    const double perCell = 2 / state.grid.h;
+    nodal::Absorbing out;
+    out.name = name;
+    out.normalRate = perCell * material->waveSpeed() *
+                     d.get<double>({"normal", "share of rho c_p along the normal", {}, Bound::between(0, 10), 1.0});
+    out.shearRate = perCell * shearSpeed *
+                    d.get<double>({"shear", "share of rho c_s along the plane", {}, Bound::between(0, 10), 1.0});
+    if (const Dictionary* incoming = d.findDict("incoming", "velocity of a wave that comes in; default: none"))
+        out.incoming =
+            std::make_shared<const dictionary::Motion>(dictionary::Motion::read(*incoming, state.particles.dim));
+    const Plane plane = readOwnPlane(all, d, name, state);
+    out.axis = plane.axis;
+    out.side = plane.side;
+    out.plane = planeOfNodes(all, name, plane, state.grid, "");
+    return out;
+}
+
 nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::string& name, const std::string& type,
                      const state::State& state)
 {
@@ -147,40 +214,23 @@ nodal::Wall readWall(const Dictionary& all, const Dictionary& d, const std::stri
     wall.separation = d.get<bool>(
         {"separation", "on: the wall only pushes; off: it also holds", {}, {}, wall.type == nodal::WallType::friction});
     const int dim = state.particles.dim;
-    Plane plane;
-    if (const Dictionary* own = d.findDict("plane", "the wall's plane; default: that of the boundary of this name"))
-        plane = readPlane(*own, dim);
-    else if (const auto* patch = findPatch(state, name))
-        plane = planeOfPatch(all, *patch, dim, state.grid.h);
-    else
-        failUnknownPatch(all, name, state);
+    const Plane plane = readOwnPlane(all, d, name, state);
     wall.axis = plane.axis;
     wall.side = plane.side;
-    if (state.grid.periodic[std::size_t(plane.axis)])
-        throw InputError(all.where(name),
-                         fmt::format("{}: found a wall normal to {}, along which the grid is periodic; allowed: walls "
-                                     "normal to other axes, or no periodic in system/gridDict",
-                                     name, axisNames[std::size_t(plane.axis)]));
     wall.position = plane.position;
     if (const Dictionary* motion = d.findDict("motion", "of the wall; default: it rests"))
     {
         auto given = dictionary::Motion::read(*motion, dim);
+        for (const char* taken : {"history", "energyBudget", "profile", "strainPaths", "accuracyCost"})
+            if (name == taken)
+                throw InputError(all.where(name), fmt::format("{0}: found a moving wall called like "
+                                                              "postProcessing/{0}.csv, allowed is another name",
+                                                              name));
         if (!given.still())
             wall.motion = std::make_shared<const dictionary::Motion>(std::move(given));
     }
-    const double index = (plane.position - state.grid.origin[plane.axis]) / state.grid.h;
-    wall.plane = Index(std::lround(index));
     const bool leaves = wall.motion && !wall.motion->stillAlong(std::size_t(plane.axis));
-    if (!leaves && std::abs(index - double(wall.plane)) > 1e-6)
-    {
-        const auto at = [&](double i) { return state.grid.origin[plane.axis] + state.grid.h * i; };
-        throw InputError(all.where(name),
-                         fmt::format("{}: found a wall at {} = {:g}, between planes of nodes; allowed: the nearest are "
-                                     "{:.10g} and {:.10g} (or move min of "
-                                     "system/gridDict, or give it a motion along its normal)",
-                                     name, axisNames[plane.axis], plane.position, at(std::floor(index)),
-                                     at(std::floor(index) + 1)));
-    }
+    wall.plane = leaves ? 0 : planeOfNodes(all, name, plane, state.grid, ", or give it a motion along its normal");
     refuseUselessWall(all, wall, state);
     return wall;
 }
@@ -195,8 +245,27 @@ void readBoundaries(const Dictionary& d, const state::State& state, stepping::Sc
                                    {{"fixed", "no motion"},
                                     {"roller", "no motion along the normal"},
                                     {"friction", "Coulomb friction"},
+                                    {"absorbing", "dashpots that let waves out"},
                                     {"traction", "given load vector"},
                                     {"pressure", "given load along the inward normal"}});
+        if (type == "absorbing")
+        {
+            const auto plane = readAbsorbing(d, b, name, state, scene);
+            nodal::Wall same;
+            same.name = name;
+            same.axis = plane.axis;
+            same.side = plane.side;
+            same.plane = plane.plane;
+            refuseUselessWall(d, same, state);
+            for (const auto& other : scene.absorbing)
+                if (other.axis == plane.axis && other.side == plane.side)
+                    throw InputError(d.where(name), fmt::format("{}: found a second absorbing boundary that faces the "
+                                                                "same way, besides '{}'; allowed: one",
+                                                                name, other.name));
+            if (plane.normalRate > 0 || plane.shearRate > 0)
+                scene.absorbing.push_back(plane);
+            continue;
+        }
         if (type != "traction" && type != "pressure")
         {
             const nodal::Wall wall = readWall(d, b, name, type, state);

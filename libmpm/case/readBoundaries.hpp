@@ -1,6 +1,7 @@
 #pragma once
 /// constant/boundaryConditions: one dictionary a boundary, named after a physical group of the geometry, or with a
-/// plane of its own: walls at rest or in motion (nodal/wall.hpp) and loads (nodal/traction.hpp). Boundaries not named
+/// plane of its own: walls at rest or in motion (nodal/wall.hpp), planes that let waves
+/// out (nodal/absorbingBoundary.hpp) and loads (nodal/traction.hpp). Boundaries not named
 /// are free.
 ///
 ///     base   { type fixed; motion { acceleration { file "constant/quake.csv"; direction (1 0 0); scale 9.81; } } }

@@ -5,6 +5,7 @@
 #include "case/makeStepper.hpp"
 #include "case/readBoundaries.hpp"
 #include "case/readContact.hpp"
+#include "case/readRigidBodies.hpp"
 #include "case/readSchemes.hpp"
 #include "constitutive/law.hpp"
 
@@ -76,6 +77,18 @@ std::optional<Vector3> readGravity(const Dictionary& d, int dim)
     if (g == Vector3{})
         return std::nullopt;
     return g;
+}
+
+std::optional<nodal::GravityRamp> readGravityRamp(const Dictionary& d)
+{
+    const Dictionary* ramp = d.findDict("ramp", "how gravity comes on; default: at once");
+    if (!ramp)
+        return std::nullopt;
+    nodal::GravityRamp out;
+    out.duration = ramp->get<double>({"duration", "from nothing at t = 0", unit::time, Bound::nonNegative()});
+    out.smooth = ramp->choose("shape", "of the ramp", {{"linear", "t/duration"}, {"smooth", "s^2 (3 - 2 s)"}},
+                              std::string("linear")) == "smooth";
+    return out.duration > 0 ? std::optional(out) : std::nullopt;
 }
 
 namespace
@@ -154,7 +167,11 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
     out.scene.materials = matchMaterials(materialProperties, state);
     refuseLostStress(materialProperties, out.scene.materials, state);
     if (folder.hasFile("constant/g"))
-        out.scene.gravity = readGravity(open("constant/g"), state.particles.dim);
+    {
+        const Dictionary& g = open("constant/g");
+        out.scene.gravity = readGravity(g, state.particles.dim);
+        out.scene.gravityRamp = readGravityRamp(g);
+    }
     if (folder.hasFile("constant/bodyForce"))
         if (const auto force = readBodyForce(open("constant/bodyForce"), state.particles.dim))
         {
@@ -166,9 +183,14 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
     if (folder.hasFile("constant/contactProperties"))
         out.scene.contact = readContact(open("constant/contactProperties"), out.scene.materials);
+    if (folder.hasFile("constant/rigidBodies"))
+        readRigidBodies(open("constant/rigidBodies"), state, out.scene);
     const Dictionary& schemes = open("system/mpmSchemes");
     out.shape = readSchemes(schemes, out.scene);
     out.scene.treatment = readStressTreatment(schemes, out.scene);
+    if (out.scene.rest && out.scene.contact)
+        schemes.fail("rest", "it beside constant/contactProperties",
+                     "one of the two: what lies on another body does not rest alone");
     if (out.scene.rest && out.scene.treatment.any())
         schemes.fail("rest", "it with a stressTreatment",
                      "one of the two: treatments take averages over what may sleep");

@@ -5,6 +5,7 @@
 ///     initialStress, initialVelocity and constants are seedParticles' own.
 /// constant/bodyForce: a force per mass by formulas (case/expressionForce.hpp); absent: none.
 /// constant/g: value (0 -9.8 0); absent: no gravity.
+/// constant/rigidBodies: case/readRigidBodies.hpp; absent: none.
 /// constant/boundaryConditions: case/readBoundaries.hpp; absent: all boundaries are free.
 /// constant/contactProperties: case/readContact.hpp
 /// system/mpmSchemes: case/readSchemes.hpp
@@ -25,6 +26,8 @@ std::vector<constitutive::Material> matchMaterials(const dictionary::Dictionary&
                                                    const state::State& state);
 
 std::optional<Vector3> readGravity(const dictionary::Dictionary& g, int dim);
+/// `ramp { duration 1; shape smooth; }` of constant/g (nodal/gravity.hpp).
+std::optional<nodal::GravityRamp> readGravityRamp(const dictionary::Dictionary& g);
 
 struct SceneOfCase
 {

@@ -107,6 +107,12 @@ void SolverRun::openSeries(std::optional<double> continueAt)
     const auto out = folder_.postProcessing();
     history_ = std::make_unique<output::CsvSeries>(out / "history.csv", stepping::historyColumns(), continueAt);
     budget_ = std::make_unique<output::CsvSeries>(out / "energyBudget.csv", stepping::budgetColumns(), continueAt);
+    if (std::any_of(scene_.scene.walls.begin(), scene_.scene.walls.end(), [](const auto& w) { return w.motion; }) ||
+        !scene_.scene.bodies.empty())
+    {
+        actors_ = std::make_unique<ActorSeries>(scene_.scene);
+        actors_->open(out, continueAt);
+    }
 }
 
 void SolverRun::openOutput()
@@ -280,6 +286,8 @@ void SolverRun::writeRow()
     const auto totals = stepping::totals(state_, scene_.scene.materials);
     history_->write(stepping::historyRow(state_, totals, stepper_->report()));
     budget_->write(stepping::budgetRow(state_, totals));
+    if (actors_)
+        actors_->writeRow(state_.time, stepper_->report());
 }
 
 void SolverRun::writeState(bool outOfTurn)
@@ -295,6 +303,8 @@ void SolverRun::writeState(bool outOfTurn)
     writing_ = std::async(std::launch::async, [this, pending] {
         history_->synchronise(); // a state on disk has its rows there
         budget_->synchronise();
+        if (actors_)
+            actors_->synchronise();
         if (recorder_)
             recorder_->synchronise();
         pending->commit();
@@ -307,9 +317,15 @@ void SolverRun::writeState(bool outOfTurn)
 void SolverRun::writeSeries()
 {
     std::vector<std::string> names;
+    std::vector<std::pair<std::string, double>> times;
     for (const auto& time : folder_.times())
+    {
         names.push_back(time.name);
+        times.emplace_back(time.name, time.value);
+    }
     series_.write(names);
+    if (actors_)
+        actors_->writeSurfaces(folder_.postProcessing(), times);
 }
 
 /// Throws what went wrong meanwhile.

@@ -7,6 +7,7 @@
 /// Nothing is written before everything was read and checked. A state is written whole or not at all; when a step
 /// fails, the last stored time is named and untouched.
 #include "base/terminal.hpp"
+#include "case/actorSeries.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/costPrediction.hpp"
@@ -105,6 +106,7 @@ class SolverRun
     double restWaveSpeed_ = 0;
     std::unique_ptr<StrainRecorder> recorder_;
     std::unique_ptr<output::CsvSeries> history_, budget_;
+    std::unique_ptr<ActorSeries> actors_; ///< null: nothing moves as prescribed
     std::unique_ptr<Progress> progress_;
     std::string lastStored_;
     std::vector<std::string> laterTimes_; ///< to be removed when the run begins

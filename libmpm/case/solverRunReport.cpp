@@ -7,6 +7,7 @@
 #include "case/expressionForce.hpp"
 #include "case/provenance.hpp"
 #include "case/solverRun.hpp"
+#include "nodal/rigidBody.hpp"
 #include "nodal/wall.hpp"
 
 #include <cmath>
@@ -73,6 +74,19 @@ double softest(const std::vector<constitutive::Material>& materials)
     return modulus;
 }
 
+/// "0.3", "0.2 to 0.3".
+std::string muText(const nodal::ContactProperties& contact)
+{
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t one = 0; one < contact.mu.size(); ++one)
+        for (std::size_t other = 0; other < one; ++other)
+        {
+            least = std::min(least, contact.mu[one][other]);
+            most = std::max(most, contact.mu[one][other]);
+        }
+    return least == most ? fmt::format("{:g}", most) : fmt::format("{:g} to {:g}", least, most);
+}
+
 void line(const std::string& what, const std::string& text)
 {
     fmt::print("  {:<14} {}\n", what, text);
@@ -102,7 +116,10 @@ void SolverRun::banner() const
         line("material", fmt::format("{}: {}, density {:g} kg/m^3, c_p {:.1f} m/s", material.name,
                                      material.law->describe(), material.density, material.waveSpeed()));
     if (s.gravity)
-        line("gravity", fmt::format("({:g} {:g} {:g}) m/s^2", (*s.gravity)[0], (*s.gravity)[1], (*s.gravity)[2]));
+        line("gravity", fmt::format("({:g} {:g} {:g}) m/s^2", (*s.gravity)[0], (*s.gravity)[1], (*s.gravity)[2]) +
+                            (s.gravityRamp ? fmt::format(", coming on over {:g} s{}", s.gravityRamp->duration,
+                                                         s.gravityRamp->smooth ? ", smooth" : "")
+                                           : ""));
     if (const auto* force = dynamic_cast<const ExpressionForce*>(s.bodyForce.get()))
         line("bodyForce", force->describe() + " m/s^2");
     if (s.relaxationTime)
@@ -111,6 +128,19 @@ void SolverRun::banner() const
         line("damping", fmt::format("local, coefficient {:g}", *s.localDamping));
     for (const auto& wall : s.walls)
         line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
+    if (s.contact)
+        line("contact", fmt::format("between {}, mu {}{}", joinWords(s.contact->bodies, " and "), muText(*s.contact),
+                                    s.contact->detection == nodal::ContactDetection::nodes ? ", felt at shared nodes" : ""));
+    for (const auto& plane : s.absorbing)
+        line("absorbing", fmt::format("{} at {} = {:g} m: {:.4g} and {:.4g} 1/s along and across its normal{}",
+                                      plane.name, axisNames[std::size_t(plane.axis)],
+                                      state_.grid.origin[std::size_t(plane.axis)] + state_.grid.h * double(plane.plane),
+                                      plane.normalRate, plane.shearRate,
+                                      plane.incoming ? ", incoming " + plane.incoming->describe() : ""));
+    for (const auto& body : s.bodies)
+        line("body", fmt::format("{}: {} {}, friction {:g}, {}, {}", body.name, body.body->surface().elements().size(),
+                                 state_.particles.dim == 2 ? "segments" : "triangles", body.mu,
+                                 body.separation ? "may separate" : "holds", body.motion->describe()));
     for (const auto& load : s.loads)
         line("load", load.pressure ? fmt::format("{}: pressure {:g} Pa", load.patch, load.magnitude)
                                    : fmt::format("{}: traction ({:g} {:g} {:g}) Pa", load.patch, load.traction[0],
@@ -209,8 +239,11 @@ void SolverRun::summary()
     bool motion = false;
     for (const auto& wall : scene_.scene.walls)
         motion = motion || wall.motion;
-    if (motion)
-        line("motion", fmt::format("walls did {:.4g} {} of work", l.motionWork / 1e3, unit));
+    if (motion || !scene_.scene.bodies.empty())
+        line("motion", fmt::format("walls and bodies did {:.4g} {} of work, {} contacts of bodies", l.motionWork / 1e3,
+                                   unit, l.bodyContacts));
+    if (!scene_.scene.absorbing.empty())
+        line("absorbing", fmt::format("{:.4g} {} let out", l.absorbedEnergy / 1e3, unit));
     if (scene_.scene.relaxationTime || scene_.scene.localDamping)
         line("damping", fmt::format("{:.4g} {} dissipated", l.dampingDissipation / 1e3, unit));
     if (scene_.scene.bulkViscosity)

@@ -44,10 +44,10 @@ struct Point
 struct Constants
 {
     DruckerPragerCone cone;
-    double invStiffness;            ///< 1/(3 G + K A A')
-    double volume, highest;         ///< K A', the smaller of apex and limit
-    double ring;                    ///< q on the cone at the limit [Pa]
-    double dropsVolume;             ///< 1/K at psi = 0 without a limit, else 0
+    double invStiffness;    ///< 1/(3 G + K A A')
+    double volume, highest; ///< K A', the smaller of apex and limit
+    double ring;            ///< q on the cone at the limit [Pa]
+    double dropsVolume;     ///< 1/K at psi = 0 without a limit, else 0
 
     Constants(const DruckerPragerCone& c, const ElasticModuli& m)
         : cone(c), invStiffness(1 / (3 * m.shear() + m.bulk() * c.slope * c.flow)), volume(m.bulk() * c.flow),
@@ -60,7 +60,7 @@ struct Constants
 {
     const double f = q + c.cone.slope * p - c.cone.strength;
     const double lam = f > 0 ? f * c.invStiffness : 0;
-    const double coneP = p - c.volume * lam;      // where q on the cone is negative, p is beyond the apex
+    const double coneP = p - c.volume * lam; // where q on the cone is negative, p is beyond the apex
     const bool beyondApex = coneP > c.cone.apex, beyond = coneP > c.cone.limit;
     const bool plastic = (f > 0) | beyond;
 

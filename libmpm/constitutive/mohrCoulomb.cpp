@@ -47,12 +47,13 @@ void requireParameters(const MohrCoulombParameters& p)
 }
 
 MohrCoulombSurface::MohrCoulombSurface(const MohrCoulombParameters& p)
-    : MohrCoulombSurface(p.moduli, p.cohesion, slope(p.frictionAngle), slope(p.dilationAngle), p.dilationAngle > 0 ? 0 : 1 / p.moduli.bulk())
+    : MohrCoulombSurface(p.moduli, p.cohesion, slope(p.frictionAngle), slope(p.dilationAngle),
+                         p.dilationAngle > 0 ? 0 : 1 / p.moduli.bulk())
 {}
 
 MohrCoulomb::MohrCoulomb(const MohrCoulombParameters& parameters, std::optional<Substep> substep)
-    : parameters_(checked(parameters)),
-      surface_(MohrCoulombSurface(parameters), parameters.tensionCutOff, parameters.moduli.poisson), substep_(substep)
+    : parameters_(checked(parameters)), surface_(parameters.tensionCutOff, parameters.moduli.poisson, parameters),
+      substep_(substep)
 {
     if (parameters_.softening && substep_)
         throw InputError("softening: found with substep, allowed is one of them");
@@ -130,7 +131,7 @@ template <int dim>
 void MohrCoulomb::updateWhole(Chunk<dim>& chunk) const
 {
     if (parameters_.softening)
-        returnSofteningChunk(chunk, SofteningSurface(parameters_, scale_));
+        returnSofteningChunk(chunk, SofteningSurface(parameters_, scale_), ElasticCone(surface_, surface_.limit));
     else if (cutsOff())
         returnChunk(chunk, parameters_.moduli, surface_, ElasticCone(surface_, surface_.limit));
     else

@@ -20,6 +20,8 @@
 /// so no volume is dropped. Proven against all subsets of the nine planes in tests/unit/tensionCutOff.cpp.
 #include "constitutive/mohrCoulombReturn.hpp"
 
+#include <utility>
+
 namespace mpm::constitutive
 {
 struct CutOffSurface : MohrCoulombSurface
@@ -29,9 +31,11 @@ struct CutOffSurface : MohrCoulombSurface
     double poisson;  ///< nu
     double sideways; ///< nu/(1 - nu)
 
-    CutOffSurface(const MohrCoulombSurface& surface, double tensionCutOff, double nu)
-        : MohrCoulombSurface(surface),
-          limit(tensionCutOff < surface.highest ? tensionCutOff : std::numeric_limits<double>::infinity()),
+    /// From what makes the surface below the limit, in place: a copy of it would keep lanes apart.
+    template <class... Surface>
+    CutOffSurface(double tensionCutOff, double nu, Surface&&... surface)
+        : MohrCoulombSurface(std::forward<Surface>(surface)...),
+          limit(tensionCutOff < highest ? tensionCutOff : std::numeric_limits<double>::infinity()),
           corner(k * limit - strength), poisson(nu), sideways(nu / (1 - nu))
     {
         dropsVolume = tensionCutOff < highest ? 0 : dropsVolume;

@@ -35,7 +35,7 @@ struct SofteningSurface
     double from, invOver, limit;
     double cohesion[2], friction[2], dilation[2];
     double perPressure; ///< 1/K [1/Pa]
-    double growth; ///< of kappa for one |dev sigma_lost|: h/referenceLength sqrt(2/3)/(2 G) [1/Pa]
+    double growth;      ///< of kappa for one |dev sigma_lost|: h/referenceLength sqrt(2/3)/(2 G) [1/Pa]
 
     SofteningSurface(const MohrCoulombParameters& p, double scale)
         : moduli(p.moduli), from(p.softening->from), invOver(1 / p.softening->over),
@@ -52,8 +52,8 @@ struct SofteningSurface
         w = w < 1 ? w : 1;
         const auto between = [w](const double(&ends)[2]) { return (1 - w) * ends[0] + w * ends[1]; };
         const double psi = between(dilation);
-        const MohrCoulombSurface shear(moduli, between(cohesion), slopeOf(between(friction)), slopeOf(psi), psi > 0 ? 0 : perPressure);
-        return CutOffSurface(shear, limit, moduli.poisson);
+        return CutOffSurface(limit, moduli.poisson, moduli, between(cohesion), slopeOf(between(friction)), slopeOf(psi),
+                             psi > 0 ? 0 : perPressure);
     }
 };
 
@@ -121,11 +121,16 @@ inline bool findGrowth(const SofteningSurface& c, const double (&s)[3][lanes], c
 }
 
 template <int dim>
-void returnSofteningChunk(Chunk<dim>& chunk, const SofteningSurface& surface)
+void returnSofteningChunk(Chunk<dim>& chunk, const SofteningSurface& surface, const ElasticCone& atPeak)
 {
     constexpr int nc = stressSize<dim>;
     alignas(64) double trials[nc][lanes], principals[3][lanes], growth[lanes];
     elasticTrial<dim>(chunk, surface.moduli, trials);
+    int softened = 0;
+    for (int l = 0; l < lanes; ++l)
+        softened += chunk.plasticStrain[l] > surface.from;
+    if (softened == 0 && staysElastic<dim>(trials, atPeak))
+        return keepTrial(chunk, trials);
     for (int l = 0; l < lanes; ++l)
     {
         double trial[nc];
@@ -140,6 +145,7 @@ void returnSofteningChunk(Chunk<dim>& chunk, const SofteningSurface& surface)
         return keepTrial(chunk, trials);
     for (int l = 0; l < lanes; ++l)
         chunk.plasticStrain[l] += growth[l];
-    returnTrials(chunk, trials, surface.moduli, [&](int l) { return surface.at(chunk.plasticStrain[l]); });
+    const SofteningSurface c = surface;
+    returnTrials(chunk, trials, surface.moduli, [&](int l) { return c.at(chunk.plasticStrain[l]); });
 }
 } // namespace mpm::constitutive

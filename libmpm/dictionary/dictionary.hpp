@@ -67,7 +67,7 @@ struct FormulaText
     Location where;
 };
 
-/// One row of a table: (t value) or (t (x y z)).
+/// One row of a table: (t value), (t x y z) or (t (x y z)).
 struct TableRow
 {
     double at = 0;

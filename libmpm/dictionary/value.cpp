@@ -134,11 +134,16 @@ bool take(Rest& rest, TableRow& value)
     ++rest.at;
     if (!take(rest, value.at))
         return false;
-    const bool vector = rest.is('(');
-    value.values.assign(vector ? 0 : 1, 0.0);
-    if (vector ? !take(rest, value.values) || value.values.empty() : !take(rest, value.values[0]))
-        return false;
-    if (!rest.is(')'))
+    value.values.clear();
+    if (rest.is('('))
+    {
+        if (!take(rest, value.values))
+            return false;
+    }
+    else
+        for (double number = 0; take(rest, number);)
+            value.values.push_back(number);
+    if (value.values.empty() || !rest.is(')'))
         return false;
     ++rest.at;
     return true;

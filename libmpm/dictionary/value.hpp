@@ -30,7 +30,7 @@ bool take(Rest& rest, std::string& value); ///< a word or a quoted text
 bool take(Rest& rest, FormulaText& value); ///< a number, a word or a quoted text
 bool take(Rest& rest, Vector3& value);     ///< (x y z)
 bool take(Rest& rest, Dimensions& value);  ///< [5 or 7 exponents]
-bool take(Rest& rest, TableRow& value);    ///< (t value) or (t (x y z))
+bool take(Rest& rest, TableRow& value);    ///< (t value ...) or (t (x y z))
 bool take(Rest& rest, WordGroup& value);   ///< a word or (a b c)
 bool take(Rest& rest, WordPair& value);    ///< (a b 0.5)
 

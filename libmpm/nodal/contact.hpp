@@ -1,28 +1,28 @@
 #pragma once
 /// Contact between bodies with Coulomb friction. A body is one material or several; each has its own field of nodal
-/// velocities (its own tiles and blocks of nodes, state/tileGrid.hpp), so bodies slip and part freely, and only at nodes
-/// which two of them reach is there anything to decide (the multi-velocity grid of Bardenhagen, Brackbill & Sulsky 2000,
-/// doi 10.1016/S0045-7825(99)00338-2).
+/// velocities (its own tiles and blocks of nodes, state/tileGrid.hpp), so bodies slip and part freely, and only at
+/// nodes which two of them reach is there anything to decide (the multi-velocity grid of Bardenhagen, Brackbill &
+/// Sulsky 2000, doi 10.1016/S0045-7825(99)00338-2).
 ///
 /// Normal and gap. A node sees of each body the particles that carry weight at it. n, from body 1 to body 2, is normal
 /// to the plane that separates the centres of the two clouds best (nodal/hullDistance.hpp); the gap is the distance of
 /// the two clouds along n,
 ///     g = min_2 (x_p.n - r_p(n)) - max_1 (x_p.n + r_p(n)),     r_p(n)^2 = sum_k (n . F l0_k)^2/4,
-/// r_p the half width of the ellipsoid within the particle's domain. So a flat surface has its own normal up to its very
-/// edge, where gradients of nodal mass turn by 30 degrees and more, and domains meet where they are drawn, not two cells
-/// before. (Nairn, Hammerquist & Smith 2020, doi 10.1016/j.cma.2020.112859, separate the clouds by logistic regression.)
-/// Where clouds are mixed already, n joins their centres.
+/// r_p the half width of the ellipsoid within the particle's domain. So a flat surface has its own normal up to its
+/// very edge, where gradients of nodal mass turn by 30 degrees and more, and domains meet where they are drawn, not two
+/// cells before. (Nairn, Hammerquist & Smith 2020, doi 10.1016/j.cma.2020.112859, separate the clouds by logistic
+/// regression.) Where clouds are mixed already, n joins their centres.
 ///
 /// Law, u the trial velocities after forces, body effects and walls, m* = m_1 m_2/(m_1 + m_2), d = u_1 - u_2:
-///     push      J_n = m* (d.n - max(g, 0)/dt)  where that is positive: what would overlap by the end of the step touches
-///     friction  J_t = m* d_t where |m* d_t| <= mu J_n (stick), else mu J_n d_t/|d_t|
-///     u_1 -= (J_n n + J_t)/m_1,  u_2 += (J_n n + J_t)/m_2
+///     push      J_n = m* (d.n - max(g, 0)/dt)  where that is positive: what would overlap by the end of the step
+///     touches friction  J_t = m* d_t where |m* d_t| <= mu J_n (stick), else mu J_n d_t/|d_t| u_1 -= (J_n n + J_t)/m_1,
+///     u_2 += (J_n n + J_t)/m_2
 /// so momentum is kept; parting is free. Walls then push once more. Where more than two bodies meet, all pairs are
 /// repeated in turn with their sums of push and friction held to the law, until nothing changes.
 ///
-/// Contact and stick are decided once a step; velocities w that strains are taken from follow (wall.hpp has the reason):
-/// pairs in contact keep the normal difference of v*, those that stick all of it, and others do not approach by more than
-/// their gap.
+/// Contact and stick are decided once a step; velocities w that strains are taken from follow (wall.hpp has the
+/// reason): pairs in contact keep the normal difference of v*, those that stick all of it, and others do not approach
+/// by more than their gap.
 ///
 /// Energy: contactFriction = - sum J_t . v*, never negative, and contactLoss, the rest of the work of both impulses:
 /// m* ((v_i,1 - v_i,2).n)^2/2 of an impact, shared with the work of forces as for walls (nodeRow.hpp).
@@ -31,7 +31,8 @@
 ///                                       // (disc (soil rock)); materials not named are one body more
 ///     mu          0.3;                  // between bodies, >= 0
 ///     pairs       ((disc plane 0.2));   // default none; a body that is a list goes by its first material
-///     detection   domains;              // domains | nodes: contact as soon as two bodies carry the same node, a cell or
+///     detection   domains;              // domains | nodes: contact as soon as two bodies carry the same node, a cell
+///     or
 ///                                       // more before they meet (for comparison)
 ///
 /// Without the file all materials are one body that holds together, and no step has a pass more. A body thinner than
@@ -94,8 +95,8 @@ class Contact
         double mu = 0;
         Vector3 n{};
         double gap = 0;
-        double push = 0;   ///< J_n
-        Vector3 rub{};     ///< J_t
+        double push = 0; ///< J_n
+        Vector3 rub{};   ///< J_t
         bool sticks = false;
     };
     struct Box

@@ -14,9 +14,9 @@ enum class ContactDetection
 /// What a dictionary says of contact, as plain data.
 struct ContactProperties
 {
-    std::vector<std::string> bodies;                        ///< names
-    std::vector<int> bodyOf;                                ///< by Particles::material
-    std::vector<std::vector<double>> mu;                    ///< of each pair of bodies, symmetric
+    std::vector<std::string> bodies;     ///< names
+    std::vector<int> bodyOf;             ///< by Particles::material
+    std::vector<std::vector<double>> mu; ///< of each pair of bodies, symmetric
     ContactDetection detection = ContactDetection::domains;
 };
 } // namespace mpm::nodal

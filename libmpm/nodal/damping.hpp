@@ -83,6 +83,9 @@ class Damping : public NodeEffect<dim>
         const std::size_t n = std::size_t(i - row.begin);
         for (int a = 0; a < dim; ++a)
             change[row.trial + a] += (row.walls->other[n][a] + row.walls->friction[n][a]) / row.node[i][0];
+        if (!row.walls->absorbed.empty())
+            for (int a = 0; a < dim; ++a)
+                change[row.trial + a] += row.walls->absorbed[n][std::size_t(a)] / row.node[i][0];
         return change;
     }
 

@@ -3,9 +3,13 @@
 ///
 ///     dimensions [0 1 -2 0 0 0 0];     // constant/g
 ///     value      (0 -9.8 0);
+///     ramp       { duration 1; shape smooth; }   // [s]; linear t/T or smooth s^2 (3 - 2 s), s = t/T, from zero at
+///                                                // t = 0; absent or duration 0: all of it from the start
 ///
+/// A step takes the mean of the ramp over the step, from its closed integral.
 /// Work sum dt m_i g . (v_i + v*)/2 (METHOD, Energy) is booked after the walls, so that it is the work gravity does on
 /// the motion that happens. Verified in tests/unit/stepper.cpp (free fall) and by the self-weight column.
+#include "nodal/boundaries.hpp"
 #include "nodal/nodeRow.hpp"
 
 namespace mpm::nodal
@@ -14,13 +18,14 @@ template <int dim>
 class Gravity : public NodeEffect<dim>
 {
   public:
-    explicit Gravity(const Vector3& g) : g_(g) {}
+    explicit Gravity(const Vector3& g, const std::optional<GravityRamp>& ramp = {}) : g_(g), ramp_(ramp) {}
 
     void apply(NodeRow<dim>& row) const override
     {
         Record change{};
+        const Vector3 g = now(row);
         for (int a = 0; a < dim; ++a)
-            change[row.trial + a] = row.dt * g_[a];
+            change[row.trial + a] = row.dt * g[a];
         for (Index i = row.begin; i < row.end; ++i)
             row.node[i] += row.carries(i) ? change : Record{};
     }
@@ -35,15 +40,25 @@ class Gravity : public NodeEffect<dim>
             mass += m;
             momentum += m * row.node[i];
         }
+        const Vector3 g = now(row);
         for (int a = 0; a < dim; ++a)
         {
             const double both = momentum[row.velocity + a] + momentum[row.trial + a];
-            row.sums->gravityWork += 0.5 * row.dt * g_[a] * both;
-            row.sums->gravityImpulse[a] += row.dt * g_[a] * mass;
+            row.sums->gravityWork += 0.5 * row.dt * g[a] * both;
+            row.sums->gravityImpulse[a] += row.dt * g[a] * mass;
         }
     }
 
   private:
+    Vector3 now(const NodeRow<dim>& row) const
+    {
+        if (!ramp_)
+            return g_;
+        const double factor = ramp_->mean(row.time, row.dt);
+        return {factor * g_[0], factor * g_[1], factor * g_[2]};
+    }
+
     Vector3 g_;
+    std::optional<GravityRamp> ramp_;
 };
 } // namespace mpm::nodal

@@ -12,22 +12,44 @@
 
 namespace mpm::nodal
 {
+/// What one moving wall or rigid body did to the nodes of a block in a step.
+struct ActorSums
+{
+    Vector3 impulse{}; ///< on the nodes [N s]
+    Vector3 moment{};  ///< of these impulses about the body's position [N m s]
+    Index contacts = 0;
+
+    ActorSums& operator+=(const ActorSums& o)
+    {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+            impulse[a] += o.impulse[a];
+            moment[a] += o.moment[a];
+        }
+        contacts += o.contacts;
+        return *this;
+    }
+};
+
+struct HeldRow; // nodal/bodyContact.hpp
+
 /// Energies and impulses of one step, summed over nodes. Per metre in 2D.
 struct NodeSums
 {
-    double kineticBefore = 0;                                  ///< sum m v_i^2/2 [J]
-    double kineticAfter = 0;                                   ///< sum m v*^2/2 [J]
-    double gravityWork = 0;                                    ///< sum dt m b . (v_i + v*)/2 [J]
-    double tractionWork = 0;                                   ///< sum dt f_tau . (v_i + v*)/2 [J]
-    double frictionLoss = 0;                                   ///< - sum J_t . v* over friction walls [J]
-    double dampingLoss = 0;                                    ///< - sum J . (v_i + v*)/2 of damping [J]
-    double forceWorkBefore = 0;                                ///< sum dt f . v_i over the projected forces [J]
-    double forceWork = 0;                                      ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;                                       ///< sum m (v_i - v*)^2/2 where walls hold [J]
-    double motionWork = 0;                                     ///< sum J . V of impulses J by walls that move at V [J]
-    double unbalancedForce = 0; ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
-    double appliedForce = 0;    ///< sum |f| by components over the projected forces [N]; the same
-    Index contacts = 0;                                        ///< nodes at which a friction wall pressed
+    double kineticBefore = 0;  ///< sum m v_i^2/2 [J]
+    double kineticAfter = 0;  ///< sum m v*^2/2 [J]
+    double gravityWork = 0;  ///< sum dt m b . (v_i + v*)/2 [J]
+    double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2 [J]
+    double frictionLoss = 0;  ///< - sum J_t . v* over friction walls [J]
+    double absorbed = 0;  ///< - sum J . ((v_i + v*)/2 - V) of absorbing boundaries [J]
+    double dampingLoss = 0;  ///< - sum J . (v_i + v*)/2 of damping [J]
+    double forceWorkBefore = 0;  ///< sum dt f . v_i over the projected forces [J]
+    double forceWork = 0;  ///< sum dt f . v* over the projected forces [J]
+    double wallLoss = 0;  ///< sum m (v_i - v*)^2/2 where walls hold [J]
+    double motionWork = 0;  ///< sum J . V of impulses J by walls that move at V [J]
+    double unbalancedForce = 0;  ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
+    double appliedForce = 0;  ///< sum |f| by components over the projected forces [N]; the same
+    Index contacts = 0;  ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
     Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]
@@ -41,6 +63,7 @@ struct NodeSums
         frictionLoss += o.frictionLoss;
         wallLoss += o.wallLoss;
         motionWork += o.motionWork;
+        absorbed += o.absorbed;
         forceWorkBefore += o.forceWorkBefore;
         dampingLoss += o.dampingLoss;
         unbalancedForce += o.unbalancedForce;
@@ -75,17 +98,20 @@ struct NodeRow
         std::vector<Vector3> pushed;   ///< normal velocity taken away along each axis
         std::vector<Vector3> friction; ///< impulses of friction
         std::vector<Vector3> other;    ///< all other impulses
+        std::vector<Vector3> absorbed; ///< impulses of absorbing boundaries; empty where there are none
 
         void clear()
         {
             pushed.clear();
             friction.clear();
             other.clear();
+            absorbed.clear();
         }
         /// What walls did before, at a row that is taken up again.
         void add(const WallScratch& before)
         {
             open(before.pushed.size());
+            absorbed = before.absorbed;
             for (std::size_t n = 0; n < before.pushed.size(); ++n)
                 for (std::size_t a = 0; a < 3; ++a)
                 {
@@ -104,6 +130,8 @@ struct NodeRow
         }
     };
     WallScratch* walls = nullptr;
+    std::vector<HeldRow>* held = nullptr; ///< of this block: nodes rigid bodies hold
+    ActorSums* actors = nullptr;          ///< of this block: moving walls, then rigid bodies; null: nothing is booked
     std::vector<Record>* projected = nullptr; ///< the records before the row was solved
     const Vector3* contact = nullptr;         ///< contact[i]: impulse of contact on node i; null where there is none
 
@@ -204,6 +232,14 @@ void endRow(NodeRow<dim>& row, double inverseDt)
                 row.sums->frictionLoss += friction;
                 row.sums->wallLoss -= 0.5 * ((jn + jt) * (before + after) + held) + friction;
                 row.sums->wallImpulse[a] += jn + jt;
+            }
+    if (!row.walls->absorbed.empty())
+        for (Index i = row.begin; i < row.end; ++i)
+            for (int a = 0; a < dim; ++a)
+            {
+                const double impulse = row.walls->absorbed[std::size_t(i - row.begin)][std::size_t(a)];
+                row.sums->absorbed -= 0.5 * impulse * (row.node[i][row.velocity + a] + row.node[i][row.trial + a]);
+                row.sums->wallImpulse[std::size_t(a)] += impulse;
             }
     for (Index i = row.begin; i < row.end; ++i)
     {

@@ -59,7 +59,8 @@ std::string RigidMotion::describe() const
 {
     std::string out = translation ? translation->describe() : "";
     if (angle)
-        out += fmt::format("{}turning about ({:g} {:g} {:g})", out.empty() ? "" : ", ", centre[0], centre[1], centre[2]);
+        out +=
+            fmt::format("{}turning about ({:g} {:g} {:g})", out.empty() ? "" : ", ", centre[0], centre[1], centre[2]);
     return out.empty() ? "at rest" : out;
 }
 

@@ -18,7 +18,7 @@ namespace mpm::nodal
 {
 struct Pose
 {
-    Vector3 position{};                                           ///< of the reference point [m]
+    Vector3 position{};                                        ///< of the reference point [m]
     std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< R, row by row
 };
 
@@ -37,7 +37,8 @@ struct Twist
 ///         {
 ///             centre          (0 0 0);    // default: the body's centroid
 ///             axis            (0 0 1);    // 3D; in 2D z
-///             angularVelocity 0.5;        // [rad/s], or angle [rad], or angularAcceleration: number, formula, table, file
+///             angularVelocity 0.5;        // [rad/s], or angle [rad], or angularAcceleration: number, formula, table,
+///             file
 ///         }
 ///     }
 struct RigidMotion
@@ -61,6 +62,7 @@ class RigidBody
         : surface_(std::move(surface)), reference_(reference)
     {
         pose_.position = reference;
+        move(pose_, twist_);
     }
 
     const RigidSurface& surface() const { return *surface_; }

@@ -105,8 +105,7 @@ void RigidSurface::orient(const Location& where)
 {
     for (const auto& e : elements_)
         if (e[0] == e[1] || (dim_ == 3 && (e[1] == e[2] || e[2] == e[0])))
-            throw InputError(where, fmt::format("found {} of no size at {}",
-                                                dim_ == 2 ? "a segment" : "a triangle",
+            throw InputError(where, fmt::format("found {} of no size at {}", dim_ == 2 ? "a segment" : "a triangle",
                                                 place(points_[std::size_t(e[0])], dim_)));
     dim_ == 2 ? closed2D(where) : closed3D(where);
     measure();
@@ -130,11 +129,12 @@ void RigidSurface::closed2D(const Location& where) const
     }
     for (std::size_t n = 0; n < points_.size(); ++n)
         if (from[n] != 1 || to[n] != 1)
-            throw InputError(where, fmt::format("found {} at {}, allowed is a closed polygon that does not touch itself",
-                                                from[n] + to[n] < 2   ? "an open end"
-                                                : from[n] + to[n] > 2 ? "more than two segments"
-                                                                      : "segments that face against each other",
-                                                place(points_[n], 2)));
+            throw InputError(where,
+                             fmt::format("found {} at {}, allowed is a closed polygon that does not touch itself",
+                                         from[n] + to[n] < 2   ? "an open end"
+                                         : from[n] + to[n] > 2 ? "more than two segments"
+                                                               : "segments that face against each other",
+                                         place(points_[n], 2)));
 }
 
 void RigidSurface::closed3D(const Location& where) const

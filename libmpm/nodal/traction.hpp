@@ -56,7 +56,7 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 extern template class Traction<2>;
 extern template class Traction<3>;
 extern template void movePatch<2>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, int, double,
-                                   double);
+                                  double);
 extern template void movePatch<3>(state::SurfacePatch&, const state::GridBox&, const state::TileGrid&, int, double,
-                                   double);
+                                  double);
 } // namespace mpm::nodal

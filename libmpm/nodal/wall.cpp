@@ -60,6 +60,8 @@ void WallEffect<dim>::take(NodeRow<dim>& row, Index i, int a) const
     row.walls->other[n][a] += impulse;
     row.sums->motionWork += impulse * velocity_[a];
     row.sums->wallLoss += impulse * velocity_[a];
+    if (actor_ >= 0 && row.actors)
+        row.actors[actor_].impulse[std::size_t(a)] += impulse;
     r[row.trial + a] = velocity_[a];
 }
 
@@ -117,6 +119,8 @@ void WallEffect<dim>::rub(NodeRow<dim>& row) const
                 row.walls->friction[n][a] += impulse;
                 row.sums->motionWork += impulse * velocity_[a];
                 row.sums->frictionLoss += impulse * velocity_[a];
+                if (actor_ >= 0 && row.actors)
+                    row.actors[actor_].impulse[std::size_t(a)] += impulse;
                 r[row.trial + a] = keep * slip + velocity_[a];
             }
         row.sums->contacts += 1;

@@ -43,7 +43,8 @@ template <int dim>
 class WallEffect
 {
   public:
-    explicit WallEffect(const Wall& wall) : wall_(wall), plane_(wall.plane) {}
+    /// actor: its place in NodeRow::actors; -1: what it does is not booked apart.
+    explicit WallEffect(const Wall& wall, int actor = -1) : wall_(wall), actor_(actor), plane_(wall.plane) {}
 
     /// To be called before a step from `time` on: where the wall is and how fast it goes. StepError if it is too fast.
     void place(double time, double dt, const state::GridBox& grid);
@@ -61,11 +62,13 @@ class WallEffect
     /// follow v*, and a body that bounces off, or presses on the wall at rest, would gain energy in every swing.
     void follow(NodeRow<dim>& row) const;
     const Wall& wall() const { return wall_; }
+    const Vector3& velocity() const { return velocity_; }
 
   private:
     std::pair<Index, Index> range(const NodeRow<dim>& row) const;
     void take(NodeRow<dim>& row, Index i, int axis) const;
     Wall wall_;
+    int actor_;
     Index plane_;
     Vector3 velocity_{}; ///< V
 };

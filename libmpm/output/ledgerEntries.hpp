@@ -32,6 +32,7 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("tractionWork", ledger.tractionWork, "J");
     visit("motionWork", ledger.motionWork, "J");
     visit("motionSupply", ledger.motionSupply, "J");
+    visit("absorbedEnergy", ledger.absorbedEnergy, "J");
     visit("apexVolume", ledger.apexVolume, "m^3");
     visit("bodyForceWork", ledger.bodyForceWork, "J");
     visit("kineticEnergy", ledger.kineticEnergy, "J");
@@ -51,10 +52,11 @@ void forEachLedgerEntry(Ledger& ledger, Visitor&& visit)
     visit("splitsCapped", ledger.splitsCapped, "1");
     visit("restingSteps", ledger.restingSteps, "1");
     visit("wakes", ledger.wakes, "1");
+    visit("bodyContacts", ledger.bodyContacts, "1");
     visit("wallContacts", ledger.wallContacts, "1");
     visit("contactNodes", ledger.contactNodes, "1");
 
-    static_assert(sizeof(state::Ledger) == 55 * 8,
+    static_assert(sizeof(state::Ledger) == 57 * 8,
                   "a member of Ledger was added or removed: list it above, or a restart would lose it");
 }
 } // namespace mpm::output

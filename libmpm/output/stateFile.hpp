@@ -18,8 +18,8 @@
 ///     /particles/material, generation (N)      int32
 ///     /particles/referencePosition (N, dim)    float64 [m], positions at the start; only where a case names them
 ///     /particles/affine          (N, dim, dim) float64 [1/s], affine velocity, only with APIC and TPIC
-///     /particles/tensionGap, dilationRate, flowMemory, viscousStress, quietLooks (N) float64, those an effect in use keeps
-///                                              (state/particles.hpp)
+///     /particles/tensionGap, dilationRate, flowMemory, viscousStress, quietLooks, plasticStrain (N) float64, those an
+///                                              effect in use keeps (state/particles.hpp)
 ///     /grid/origin (3) [m], /grid/cellSize [m], /grid/cells (3) int64, attributes dimension; periodicX, Y, Z if it is
 ///     /ledger/<name>             energies [J], impulses (3) [N s], volumes and counts since the start of the run
 ///     /patches/<name>/centre (n, dim), edges (n, dim (dim - 1)) [m]; attribute index (place in the list)

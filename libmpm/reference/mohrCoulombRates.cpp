@@ -98,6 +98,7 @@ MohrCoulombRates::Rate MohrCoulombRates::rate(Region region, const Frame& frame,
     switch (region)
     {
     case Region::elastic:
+    case Region::tension: // of laws that are not judged here
         break;
     case Region::face: {
         const double lambda = (k_ * n1.dot(T * n1) - n3.dot(T * n3)) / (coupling + 2 * shear_ * (k_ * m_ + 1));

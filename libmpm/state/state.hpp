@@ -36,6 +36,7 @@ struct Ledger
     double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
     double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2
     double motionWork = 0;    ///< work of moving walls and bodies on the body, positive when supplied
+    double absorbedEnergy = 0; ///< taken by absorbing boundaries
     double motionSupply = 0;  ///< the same, of steps that supplied any: what has come in, however much went back
     double apexVolume = 0;    ///< volume dropped by apex returns beyond the flow rule [m^3]
     double bodyForceWork = 0; ///< work of prescribed body forces other than gravity
@@ -56,6 +57,7 @@ struct Ledger
     Index splitsCapped = 0;          ///< particles whose split the caps on size and count refuse, at the last look
     Index restingSteps = 0;          ///< steps that particles slept through, summed over particles
     Index wakes = 0;                 ///< tiles of particles that were woken
+    Index bodyContacts = 0;          ///< nodes and steps at which a rigid body pressed
     Index wallContacts = 0;          ///< nodes and steps at which a friction wall pressed
     Index contactNodes = 0;          ///< nodes and steps at which two bodies pressed
 };

@@ -55,7 +55,7 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
         work_.ofForcesBefore += 2 * total.bodyForceWork - total.bodyForceEnd;
         work_.ofForces += total.bodyForceEnd;
         report_.momentum = total.momentum;
-        report_.largestSpeed = std::max(std::sqrt(total.fastest), wallSpeed());
+        report_.largestSpeed = std::max(std::sqrt(total.fastest), actorSpeed());
     }
     if (pass.strain)
     {

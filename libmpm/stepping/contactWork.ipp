@@ -17,7 +17,7 @@ void ExplicitStepper<dim, Shape>::sizeContact()
 {
     contact_->arrange(grid_);
     kept_.projected.resize(contact_->blocks().empty() ? 0 : contact_->impulses().size());
-    kept_.byWalls.resize(walls_.empty() ? 0 : kept_.projected.size());
+    kept_.byWalls.resize(!bounded() ? 0 : kept_.projected.size());
 }
 
 /// Nodes where bodies meet, and what they do to each other's trial velocities.
@@ -34,7 +34,7 @@ void ExplicitStepper<dim, Shape>::keepRow(const nodal::NodeRow<dim>& row, const 
 {
     const std::size_t at = block.start + std::size_t(block.box.offset(row.begin, row.j, row.k));
     std::copy(row.projected->begin(), row.projected->end(), kept_.projected.begin() + std::ptrdiff_t(at));
-    if (!walls_.empty())
+    if (bounded())
         kept_.byWalls[at] = *row.walls;
 }
 
@@ -42,18 +42,17 @@ void ExplicitStepper<dim, Shape>::keepRow(const nodal::NodeRow<dim>& row, const 
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishSharedRows()
 {
-    forEachRow(
-        contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
-            const std::size_t at = block.start + std::size_t(block.box.offset(row.begin, row.j, row.k));
-            const auto from = kept_.projected.begin() + std::ptrdiff_t(at);
-            row.dt = kick_;
-            row.projected->assign(from, from + (row.end - row.begin));
-            row.contact = contact_->impulses().data() + at - row.begin;
-            applyWalls(row);
-            if (!walls_.empty() && !kept_.byWalls[at].pushed.empty())
-                row.walls->add(kept_.byWalls[at]);
-            finishRow(row);
-        });
+    forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        const std::size_t at = block.start + std::size_t(block.box.offset(row.begin, row.j, row.k));
+        const auto from = kept_.projected.begin() + std::ptrdiff_t(at);
+        row.dt = kick_;
+        row.projected->assign(from, from + (row.end - row.begin));
+        row.contact = contact_->impulses().data() + at - row.begin;
+        applyWalls(row);
+        if (bounded() && !kept_.byWalls[at].pushed.empty())
+            row.walls->add(kept_.byWalls[at]);
+        finishRow(row);
+    });
 }
 
 template <int dim, class Shape>
@@ -77,10 +76,11 @@ void ExplicitStepper<dim, Shape>::strainTogether(bool secondProjection)
         forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) { swapTrial(row); });
     }
     contact_->follow(grid_, 0);
-    forEachRow(
-        contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
-            for (const auto& wall : walls_)
-                wall.follow(row);
-        });
+    forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
+        for (const auto& wall : walls_)
+            wall.follow(row);
+        for (const auto& body : bodies_)
+            body.follow(row);
+    });
 }
 } // namespace mpm::stepping

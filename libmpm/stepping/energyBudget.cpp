@@ -57,8 +57,8 @@ double residual(const state::Ledger& l, double strainEnergy)
     return l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork +
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
-           l.dampingDissipation - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss - l.averagingLoss -
-           l.viscosityLoss - l.bulkViscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
+           l.dampingDissipation - l.absorbedEnergy - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss -
+           l.averagingLoss - l.viscosityLoss - l.bulkViscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()
@@ -152,6 +152,7 @@ const std::vector<std::string>& budgetColumns()
                                                      "contactFriction",
                                                      "contactLoss",
                                                      "bulkViscosityLoss",
+                                                     "absorbedEnergy",
                                                      "residual"};
     return columns;
 }
@@ -182,6 +183,7 @@ std::vector<double> budgetRow(const state::State& s, const Totals& t)
             l.contactFriction,
             l.contactLoss,
             l.bulkViscosityLoss,
+            l.absorbedEnergy,
             residual(l, t.strainEnergy)};
 }
 } // namespace mpm::stepping

@@ -21,6 +21,8 @@
 ///     gapWork              sum V p_mid (g' - g) of tension gaps, given back when they close
 ///     motionWork           sum J . V of the impulses J that walls and bodies moving at V give to nodes; friction and
 ///                          impact are then those of the velocity relative to V
+///     absorbedEnergy       - sum J . ((v_i + v*)/2 - V) of absorbing boundaries, V twice the velocity of a wave that
+///                          comes in (nodal/absorbingBoundary.hpp)
 ///     gravityWork          sum dt m_i b . (v_i + v*)/2; tractionWork, bodyForceWork likewise
 ///     finiteStrainWork     elastic energy that finite steps of a rate law make out of nothing: with u the energy
 ///                          density, s the stress before a step, s' the same turned, S after it, V and V' the

@@ -6,6 +6,8 @@
 /// also projects the particles as it leaves them, which is the first projection of the next step. Sums are the same,
 /// bit for bit, as those of a projection on its own.
 #include "constitutive/kinematics.hpp"
+#include "nodal/absorbingBoundary.hpp"
+#include "nodal/bodyContact.hpp"
 #include "nodal/contact.hpp"
 #include "nodal/damping.hpp"
 #include "nodal/gravity.hpp"
@@ -201,7 +203,7 @@ class ExplicitStepper : public Stepper
     /// The first projection of a step. USF needs forces only where walls ask for contact before the strains.
     Project firstProjection() const
     {
-        const bool foresees = !walls_.empty() || contact_ || rests();
+        const bool foresees = touches() || contact_ || rests();
         return scene_.stressUpdate == StressUpdate::USF && !foresees ? Project::momentum : Project::forces;
     }
     void particlePass(double dt, const Pass& wanted);
@@ -304,6 +306,7 @@ class ExplicitStepper : public Stepper
     bool rests() const { return scene_.rest.has_value(); }
     void prepareRest();
     void choosePlaces();
+    bool isDriven(const state::Tile& tile) const;
     void lookForRest();
     void layToRest();
     double fastestOf(const state::Tile& tile) const;
@@ -312,8 +315,17 @@ class ExplicitStepper : public Stepper
     void bookResting(const std::vector<Index>& blocks);
     void bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha);
 
-    void placeWalls(double dt);
-    double wallSpeed() const;
+    void placeActors(double dt);
+    void reportActors();
+    double actorSpeed() const;
+    /// Is anything prescribed that changes with time?
+    bool driven() const
+    {
+        return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
+    }
+    /// Do walls or bodies decide on contact?
+    bool touches() const { return !walls_.empty() || !bodies_.empty(); }
+    bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
     void forEachRow(Body&& body)
@@ -335,17 +347,22 @@ class ExplicitStepper : public Stepper
     List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
     std::vector<splitting::Barrier> barriers_;
+    List<nodal::BodyContact<dim>> bodies_;
+    List<nodal::AbsorbingBoundary<dim>> absorbing_;
     Maybe wallsMove_ = false;
-    transfer::WallPlanes wallPlanes_; ///< of walls that stay where they are
+    int actors_ = 0;                                    ///< moving walls and rigid bodies
+    std::vector<nodal::ActorSums> actorSums_;           ///< actors_ a block
+    std::vector<std::vector<nodal::HeldRow>> heldRows_; ///< nodes that bodies hold, by block
+    transfer::WallPlanes wallPlanes_;                   ///< of walls that stay where they are
 
     state::TileLayout layout_;
     state::TileGrid grid_;
     typename SceneOf<Shape>::template Pointer<nodal::Contact<dim>> contact_; ///< null: one body
     struct
     {
-        std::vector<Record> projected;                                   ///< nodes before they were solved, by place
+        std::vector<Record> projected;                                  ///< nodes before they were solved, by place
         std::vector<typename nodal::NodeRow<dim>::WallScratch> byWalls; ///< by place of a row's first node
-    } kept_;                                                             ///< of blocks that bodies share
+    } kept_;                                                            ///< of blocks that bodies share
     std::array<state::Column<state::Stored>, 3> domain_; ///< half lengths over h, where they follow the stretch
     std::array<state::Column<double>, 3> next_;          ///< positions at the end of the step, between two passes
     treatment::CellAverage cells_;

@@ -26,20 +26,24 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
       layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{})
 {
     if (scene.gravity)
-        effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity));
+        effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity, scene.gravityRamp));
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
     if (scene.localDamping)
         localDamping_ = std::make_unique<nodal::LocalDamping<dim>>(*scene.localDamping);
     for (const auto& wall : scene.walls)
     {
-        walls_.emplace_back(wall);
+        walls_.emplace_back(wall, wall.motion ? actors_++ : -1);
         wallsMove_ = wallsMove_ || wall.motion;
         if (!wall.motion || wall.motion->stillAlong(std::size_t(wall.axis)))
             wallPlanes_[std::size_t(wall.axis)].push_back(std::int32_t(wall.plane));
     }
     if (scene.contact)
         contact_ = std::make_unique<nodal::Contact<dim>>(*scene.contact, particleReach());
+    for (const auto& body : scene.bodies)
+        bodies_.emplace_back(body, state.grid, actors_++);
+    for (const auto& plane : scene.absorbing)
+        absorbing_.emplace_back(plane);
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
@@ -82,8 +86,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
 {
     arrange();
     project();
-    if (wallsMove_)
-        placeWalls(dt);
+    if (driven())
+        placeActors(dt);
     kick_ = scene_.staggeredStart && state_.step == 0 ? 0.5 * dt : dt;
     switch (scene_.stressUpdate)
     {
@@ -120,6 +124,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         break;
     }
     bookStressWork(dt);
+    if (actors_ > 0)
+        reportActors();
     state_.time += dt;
     state_.deltaT = dt;
     ++state_.step;

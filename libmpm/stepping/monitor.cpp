@@ -50,7 +50,8 @@ Finding Monitor::look(const state::State& state, const StepReport& report, const
 Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
     const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork;
-    const double dissipated = l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.splitMergeLoss;
+    const double dissipated = l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.absorbedEnergy +
+                              l.splitMergeLoss;
     const double start = l.initialKineticEnergy + l.initialStrainEnergy;
     const double used = l.kineticEnergy + report.strainEnergy + dissipated;
     const double nowhere = used - start - work;
@@ -72,12 +73,12 @@ Finding Monitor::balance(const state::State& state, const StepReport& report) co
     const auto& l = state.ledger;
     double scale = std::sqrt(2 * mass_ * l.kineticEnergy);
     for (const auto* part :
-         {&l.initialMomentum, &l.wallImpulse, &l.gravityImpulse, &l.tractionImpulse, &l.dampingImpulse})
+         {&l.initialMomentum, &l.wallImpulse, &l.gravityImpulse, &l.tractionImpulse, &l.dampingImpulse, &l.restImpulse})
         scale += length(*part);
     Vector3 off{};
     for (std::size_t a = 0; a < 3; ++a)
         off[a] = report.momentum[a] - l.initialMomentum[a] - l.wallImpulse[a] - l.gravityImpulse[a] -
-                 l.tractionImpulse[a] - l.dampingImpulse[a];
+                 l.tractionImpulse[a] - l.dampingImpulse[a] - l.restImpulse[a];
     if (bodyForces_ || length(off) <= momentumTolerance * scale)
         return {};
     return {

@@ -31,6 +31,8 @@ void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, B
             row.smallestMass = smallestMass_;
             row.sums = &blockSums_[b];
             row.walls = &walls;
+            row.actors = actors_ > 0 && !actorSums_.empty() ? &actorSums_[b * std::size_t(actors_)] : nullptr;
+            row.held = heldRows_.empty() ? nullptr : &heldRows_[b];
             row.projected = &projected;
             row.begin = box.lo[0];
             row.end = box.lo[0] + box.n[0];
@@ -69,13 +71,62 @@ void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state
         row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
 
-/// Where moving walls are in the coming step, and how fast.
+/// Where moving walls and bodies are in the coming step, and how fast.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::placeWalls(double dt)
+void ExplicitStepper<dim, Shape>::placeActors(double dt)
 {
     for (auto& wall : walls_)
         if (wall.wall().motion)
             wall.place(state_.time, dt, state_.grid);
+    for (auto& body : bodies_)
+        body.place(state_.time, dt, state_.grid);
+    for (auto& plane : absorbing_)
+        plane.place(state_.time, dt);
+    actorSums_.assign(grid_.blocks().size() * std::size_t(actors_), {});
+    heldRows_.resize(bodies_.empty() ? 0 : grid_.blocks().size());
+    for (auto& rows : heldRows_)
+        rows.clear();
+}
+
+/// What each of them met, summed over blocks in their order.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::reportActors()
+{
+    report_.actors.assign(std::size_t(actors_), {});
+    std::vector<nodal::ActorSums> sums(std::size_t(actors_), nodal::ActorSums{});
+    for (std::size_t n = 0; n < actorSums_.size(); ++n)
+        sums[n % std::size_t(actors_)] += actorSums_[n];
+    const auto finish = [&](ActorReport& report, const nodal::ActorSums& sum) {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+            report.force[a] = -sum.impulse[a] / kick_;
+            report.torque[a] = -sum.moment[a] / kick_;
+        }
+        report.contacts = sum.contacts;
+    };
+    std::size_t n = 0;
+    for (const auto& wall : walls_)
+        if (wall.wall().motion)
+        {
+            auto& report = report_.actors[n];
+            report.name = wall.wall().name;
+            report.position = wall.wall().motion->displacement(state_.time);
+            report.velocity = wall.velocity();
+            finish(report, sums[n++]);
+        }
+    for (auto& contact : bodies_)
+    {
+        auto& report = report_.actors[n];
+        auto& body = contact.body();
+        report.name = contact.name();
+        report.position = body.pose().position;
+        report.velocity = body.twist().velocity;
+        report.angularVelocity = body.twist().angularVelocity;
+        state_.ledger.bodyContacts += sums[n].contacts;
+        finish(report, sums[n++]);
+        body.force = report.force;
+        body.torque = report.torque;
+    }
 }
 
 template <int dim, class Shape>
@@ -83,9 +134,13 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
 {
     for (const auto& wall : walls_)
         wall.push(row);
+    for (const auto& body : bodies_)
+        body.push(row);
     for (const auto& wall : walls_)
         wall.rub(row);
-    if (wallsMove_)
+    for (const auto& body : bodies_)
+        body.rub(row);
+    if (wallsMove_ || !bodies_.empty())
         for (const auto& wall : walls_)
             wall.pushAgain(row);
 }
@@ -97,6 +152,8 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
     nodal::beginRow(row);
     for (const auto& effect : effects_)
         effect->apply(row);
+    for (const auto& plane : absorbing_)
+        plane.absorb(row);
     applyWalls(row);
 }
 
@@ -104,7 +161,7 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
 {
-    if (localDamping_)
+    if (scene_.localDamping)
         localDamping_->apply(row);
     for (const auto& effect : effects_)
         effect->book(row);
@@ -117,13 +174,15 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes()
 {
     Clock clock(times_.nodal);
+    for (auto& rows : heldRows_) // USF has foreseen contact, which now is decided
+        rows.clear();
     work_.ofForcesBefore = work_.ofForces = 0;
     report_.lightestNode = std::numeric_limits<double>::infinity();
     report_.unbalancedForce = report_.appliedForce = report_.nodalKineticEnergy = 0;
     if (report_.resting == 0)
         return solveNodes(reached_);
     std::vector<Index> blocks = reached_;
-    if (state_.step % scene_.sortInterval == 0 || !tractions_.empty())
+    if (state_.step % scene_.sortInterval == 0 || !tractions_.empty() || driven())
     {
         blocks.resize(grid_.blocks().size());
         std::iota(blocks.begin(), blocks.end(), Index(0));
@@ -190,6 +249,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
     ledger.motionWork += sums.motionWork;
     ledger.motionSupply += std::max(0.0, sums.motionWork);
     ledger.dampingDissipation += sums.dampingLoss;
+    ledger.absorbedEnergy += sums.absorbed;
     ledger.wallContacts += sums.contacts;
     ledger.transferLoss += sums.kineticAfter - sums.kineticBefore;
     for (int a = 0; a < dim; ++a)
@@ -207,13 +267,13 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {
     Clock clock(times_.nodal);
-    if (secondProjection && walls_.empty() && !contact_)
+    if (secondProjection && !touches() && !contact_)
         return forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) { projectAgainToRow(row, block); });
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         row.dt = dt;
         if (secondProjection)
             projectAgainToRow(row, block);
-        else if (walls_.empty() && !contact_ && !rests())
+        else if (!touches() && !contact_ && !rests())
         {
             sumNodes<transfer::Momentum>(row, block);
             for (Index i = row.begin; i < row.end; ++i)
@@ -229,6 +289,8 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             return;
         for (const auto& wall : walls_)
             wall.follow(row);
+        for (const auto& body : bodies_)
+            body.follow(row);
     });
     if (contact_)
         strainTogether(secondProjection);
@@ -260,6 +322,7 @@ void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const
     nodal::NodeSums unbooked;
     auto* const booked = row.sums;
     row.sums = &unbooked;
+    row.actors = nullptr;
     solveRow(row);
     row.sums = booked;
 }

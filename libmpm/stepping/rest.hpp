@@ -18,8 +18,9 @@
 ///                        |v*| > eps c_p   or   |a| h > eps c_p^2,   a the acceleration of the nodal equation:
 ///                    a wave stronger than eps arrives, or a stress of more than eps M is out of balance over a cell.
 ///                    Tiles beside a tile that wakes are judged in the same step, with the nodes it brings with it
-///     is judged      at nodes it shares with tiles awake in every step, at all its nodes at every look; in every step
-///                    where loads act, gravity changes or something prescribed moves
+///     is judged      at nodes it shares with tiles awake in every step, at all its nodes at every look, and in every
+///                    step of a scene with loads
+///     never sleeps   within two cells of something that moves as prescribed, nor while gravity grows
 /// Tiles that share nodes with another body (nodal/contact.hpp) stay awake.
 ///
 /// So stresses out of balance inside what sleeps stay below eps M, and StepReport::restingStress is the largest one

@@ -69,6 +69,34 @@ double ExplicitStepper<dim, Shape>::fastestOf(const state::Tile& tile) const
     return fastest;
 }
 
+/// Is a wall or gravity about to disturb a tile by itself?
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::isDriven(const state::Tile& tile) const
+{
+    for (const auto& effect : walls_)
+    {
+        const auto& wall = effect.wall();
+        if (!wall.motion)
+            continue;
+        const Index plane = nodal::wallPlane(wall, state_.grid, state_.time), reach = 2;
+        const Index low = tile.window.lo[wall.axis], high = low + tile.window.n[wall.axis] - 1;
+        if (wall.side < 0 ? low <= plane + reach : high >= plane - reach)
+            return true;
+    }
+    for (const auto& body : bodies_)
+    {
+        bool near = true;
+        for (int a = 0; a < dim; ++a)
+        {
+            const double h = state_.grid.h, low = state_.grid.origin[a] + h * double(tile.window.lo[a] - 2);
+            near = near && body.high()[a] >= low && body.low()[a] <= low + h * double(tile.window.n[a] + 3);
+        }
+        if (near)
+            return true;
+    }
+    return scene_.gravityRamp && state_.time < scene_.gravityRamp->duration;
+}
+
 /// Tiles quiet at `looks` looks in a row fall asleep; in the first step those that do not move.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::lookForRest()
@@ -78,11 +106,11 @@ void ExplicitStepper<dim, Shape>::lookForRest()
     for (const auto& tile : grid_.tiles())
     {
         const double vv = fastestOf(tile);
-        const bool first = state_.step == 0 && vv == 0;
+        const bool first = state_.step == 0 && vv == 0, driven = isDriven(tile);
         for (Index i = tile.first; i < tile.first + tile.count; ++i)
         {
             double& looks = quiet[std::size_t(i)];
-            looks = first ? double(scene_.rest->looks) : vv <= slow * slow ? looks + 1 : 0;
+            looks = driven ? 0 : first ? double(scene_.rest->looks) : vv <= slow * slow ? looks + 1 : 0;
         }
     }
 }

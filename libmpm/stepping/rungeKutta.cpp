@@ -197,6 +197,12 @@ std::string whyNoOde(const Scene& scene)
 {
     if (scene.splitting)
         return "splitting changes the number of particles";
+    if (!scene.bodies.empty())
+        return fmt::format("the rigid body '{}' pushes: its force jumps", scene.bodies.front().name);
+    if (!scene.absorbing.empty())
+        return fmt::format("the boundary '{}' absorbs waves step by step", scene.absorbing.front().name);
+    if (scene.gravityRamp)
+        return "gravity comes on by a ramp";
     if (scene.picRate > 0)
         return "picRate blends velocities once a step, which is no part of the equations of motion";
     if (scene.transfer != Transfer::FLIP)

@@ -70,14 +70,16 @@ double ExplicitStepper<dim, Shape>::largestSpeed() const
         }
         fastest = std::max(fastest, vv);
     }
-    return std::max(std::sqrt(fastest), wallSpeed());
+    return std::max(std::sqrt(fastest), actorSpeed());
 }
 
-/// Of the fastest moving wall now: soil it meets will be as fast.
+/// Of the fastest moving wall or body now: soil it meets will be as fast.
 template <int dim, class Shape>
-double ExplicitStepper<dim, Shape>::wallSpeed() const
+double ExplicitStepper<dim, Shape>::actorSpeed() const
 {
     double fastest = 0;
+    for (const auto& body : bodies_)
+        fastest = std::max(fastest, body.speedAt(state_.time));
     for (const auto& wall : scene_.walls)
         if (wall.motion)
         {

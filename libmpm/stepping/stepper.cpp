@@ -35,7 +35,7 @@ std::vector<splitting::Barrier> wallBarriers(const Scene& scene, const state::Gr
 {
     std::vector<splitting::Barrier> barriers;
     for (const auto& wall : scene.walls)
-        barriers.push_back({wall.axis, wall.side, grid.origin[wall.axis] + grid.h * double(nodal::wallPlane(wall, grid, time))});
+        barriers.push_back({wall.axis, wall.side, nodal::wallPosition(wall, grid, time)});
     return barriers;
 }
 } // namespace mpm::stepping

@@ -75,6 +75,9 @@ struct Scene
     std::vector<nodal::Wall> walls;                ///< in the order of the dictionary
     std::vector<nodal::Load> loads;
     std::optional<nodal::ContactProperties> contact; ///< none: all materials hold together
+    std::vector<nodal::Body> bodies;                 ///< rigid bodies, in the order of the dictionary
+    std::vector<nodal::Absorbing> absorbing;         ///< planes that let waves out
+    std::optional<nodal::GravityRamp> gravityRamp;   ///< how gravity comes on
     std::optional<splitting::Rule> splitting;
     std::optional<splitting::MergeRule> merging;
     std::optional<treatment::BulkViscosity> bulkViscosity;
@@ -97,6 +100,17 @@ struct Scene
     Index sortInterval = 20;     ///< steps between sorts of the particles
 };
 
+/// What a moving wall or a rigid body met in the last step.
+struct ActorReport
+{
+    std::string name;
+    Vector3 position{};        ///< of a body's reference point; displacement of a wall [m]
+    Vector3 velocity{};        ///< mean of the step [m/s]
+    Vector3 angularVelocity{}; ///< [rad/s]
+    Vector3 force{}, torque{}; ///< of the soil on it, about `position` [N, N m]; per metre in 2D
+    Index contacts = 0;        ///< nodes pressed
+};
+
 /// What the last step saw.
 struct StepReport
 {
@@ -106,6 +120,7 @@ struct StepReport
     Vector3 momentum{};           ///< sum m v_p [N s]
     double lightestNode = 0;      ///< smallest mass of a node that carries any [kg]
     double maxYieldViolation = 0; ///< max f/max(|sigma|, strength) over particles, 0 if none yields
+    std::vector<ActorReport> actors; ///< moving walls, then rigid bodies
     Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
     Index resting = 0;            ///< particles that slept through it
     double restingStress = 0;     ///< largest stress out of balance that left a tile asleep, |a| rho h of a node [Pa]

@@ -95,6 +95,8 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
         held.node = out;
         for (const auto& wall : walls_)
             wall.follow(held);
+        for (const auto& body : bodies_)
+            body.follow(held);
         book(1);
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)

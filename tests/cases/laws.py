@@ -79,6 +79,26 @@ class Laws(unittest.TestCase):
         self.assertAlmostEqual(-float(last["syy"]) / (passive * 50e3 + 2 * 1e3 * np.sqrt(passive)), 1, 9)
         self.assertAlmostEqual(float(last["sxx"]), -50e3, 6)
 
+    def test_cones_clay_and_softening(self):
+        (self.folder / "cone").write_text("law druckerPrager; E 20e6; nu 0.3; cohesion 1e3; frictionAngle 42; match compression;\n"
+                                          "test { confiningStress 50e3; steps 100; }\n")
+        self.run_utility("driveLaw", "-law", "cone", "-path", "triaxial", "-noPlot")
+        passive = np.tan(np.radians(45 + 21)) ** 2
+        last = rows_of(self.folder / "triaxialTest.csv")[-1]
+        self.assertAlmostEqual(-float(last["syy"]) / (passive * 50e3 + 2 * 1e3 * np.sqrt(passive)), 1, 9)
+        self.assertNotIn("plasticStrain", last)
+        # clay in triaxial compression: q = 2 c(kappa), kappa the axial plastic strain
+        (self.folder / "clay").write_text("law tresca; E 20e6; nu 0.45; cohesion 10e3;\n"
+                                          "softening { over 0.04; cohesion 2e3; referenceLength 0.1; }\n"
+                                          "test { confiningStress 50e3; steps 200; maxStrain 0.05; }\n")
+        self.run_utility("driveLaw", "-law", "clay", "-path", "triaxial", "-noPlot")
+        rows = rows_of(self.folder / "triaxialTest.csv")
+        for row in rows[20:]:
+            kappa, q = float(row["plasticStrain"]), float(row["deviatorStress"])
+            self.assertAlmostEqual(q / (2 * (10e3 - 8e3 * min(kappa / 0.04, 1))), 1, 8)
+            self.assertAlmostEqual(kappa, -float(row["eyy"]) - q / 20e6, 8)
+        self.assertGreater(float(rows[-1]["plasticStrain"]), 0.04)
+
     def test_a_table_repeats_the_test_that_wrote_it(self):
         material = PROJECT / "cases" / "collapsingSoilColumn" / "constant" / "materialProperties"
         self.run_utility("driveLaw", "-law", material, "-path", "simpleShear", "-out", "shear.csv", "-noPlot")

@@ -65,6 +65,19 @@ def measured(*rows):
     return lambda case: errorTable.write(case, rows)
 
 
+BODIES = "constant/rigidBodies"
+ABSORBING = "side { type absorbing; material soil; plane { normal (-1 0 0); position 0; } }\n"
+
+
+def moving(words):
+    """The column's base with a motion."""
+    return edit(WALLS, "    separation      on; ", f"    motion {{ {words} }}\n    separation      on; ")
+
+
+def body(words):
+    return write(BODIES, f"blade {{ {words} }}\n")
+
+
 def treated(words, change=None):
     """More words for mpmSchemes."""
     return both(append(SCHEMES, words + "\n"), *([change] if change else []))
@@ -431,5 +444,48 @@ GROUPS = [
         Entry("rate equations of a law that softens", "checkIntegration -law",
               write(CHECK, "paths { a { law tresca; E 1e6; nu 0.3; cohesion 1e3; endTime 1; rate { } "
                                   "softening { over 0.1; cohesion 200; referenceLength 0.1; } } }\n")),
+    ]),
+    ("Walls that move, rigid bodies, absorbing boundaries, gravity by a ramp", [
+        solve("a motion that is none", moving("")),
+        solve("two motions at once", moving("velocity (1 0 0); displacement (0 0 0);")),
+        solve("a motion misspelt", moving("velocty (1 0 0);")),
+        solve("a motion out of the plane", moving("velocity (0 0 1);")),
+        solve("a motion by a name nobody knows", moving('velocity ("A*sin(w*t)" 0 0); constants { A 1; }')),
+        solve("a motion that is not finite at the start", moving('velocity ("1/t" 0 0);')),
+        solve("a table whose times fall", moving("velocity table ((0 (0 0 0)) (2 (1 0 0)) (1 (0 0 0)));")),
+        solve("a table with a row of one number", moving("velocity table ((0 (0 0 0)) (1 1));")),
+        solve("a table without rows", moving("velocity table ();")),
+        solve("a record that is not there", moving('acceleration { file "constant/quake.csv"; direction (1 0 0); }')),
+        solve("a record of one column without a direction",
+              both(write("constant/quake.csv", "t,a\n0,0\n1,1\n"), moving('acceleration { file "constant/quake.csv"; }'))),
+        solve("a record with a word in it",
+              both(write("constant/quake.csv", "t,a\n0,0\n1,one\n"),
+                   moving('acceleration { file "constant/quake.csv"; direction (1 0 0); }'))),
+        solve("a record of another case", moving('velocity { file "../quake.csv"; }')),
+        solve("a motion of a load", append(WALLS, "top { type pressure; value 1e3; motion { velocity (0 1 0); } }\n")),
+        solve("a wall that slides along itself between nodes",
+              both(edit(WALLS, "position    0;", "position    0.1;"), moving("velocity (1 0 0);"))),
+        solve("an absorbing boundary of no known material", append(WALLS, ABSORBING.replace("soil", "rock"))),
+        solve("an absorbing boundary without a material", append(WALLS, ABSORBING.replace("material soil;", ""))),
+        solve("an absorbing boundary that gives energy", append(WALLS, ABSORBING.replace("soil;", "soil; normal -1;"))),
+        solve("an absorbing boundary with soil behind it", append(WALLS, ABSORBING.replace("position 0", "position 2.4"))),
+        solve("a body of neither points nor a file", body("mu 0.3;")),
+        solve("a body of two points", body("points ((-2 1) (-1 1));")),
+        solve("a body that cuts itself", body("points ((-3 1) (-1 3) (-1 1) (-3 2));")),
+        solve("a body inside the soil", body("points ((-1 1) (0.5 1) (0.5 3) (-1 3));")),
+        solve("a body thinner than a cell", body("points ((-3 1) (-1 1) (-1 1.1) (-3 1.1));")),
+        solve("a body outside the grid", body("points ((20 1) (22 1) (22 3));")),
+        solve("a body with negative friction", body("points ((-3 1) (-1 1) (-1 3)); mu -0.1;")),
+        solve("a body whose axis lies in the plane",
+              body("points ((-3 1) (-1 1) (-1 3)); motion { rotation { axis (1 0 0); angularVelocity 1; } }")),
+        solve("a body from a file nobody reads", both(write("geometry/blade.obj", "v 0 0 0\n"), body('geometry "geometry/blade.obj";'))),
+        solve("a body from a script of gmsh", body('geometry "geometry/column.geo";')),
+        solve("a body called like a table of the run", write(BODIES, "history { points ((-3 1) (-1 1) (-1 3)); }\n")),
+        solve("a word nobody knows in a body", body("points ((-3 1) (-1 1) (-1 3)); frction 0.3;")),
+        solve("a ramp of negative time", append(GRAVITY, "ramp { duration -1; }\n")),
+        solve("a ramp of no known shape", append(GRAVITY, "ramp { duration 1; shape sine; }\n")),
+        solve("a ramp without its time", append(GRAVITY, "ramp { shape smooth; }\n")),
+        solve("Runge-Kutta steps with a ramp",
+              both(elastic, append(GRAVITY, "ramp { duration 1; }\n"), append(SCHEMES, "timeIntegration RK4;\n"))),
     ]),
 ]

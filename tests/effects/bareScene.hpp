@@ -41,6 +41,7 @@ struct BareScene : stepping::Scene
 
     static constexpr std::optional<Vector3> gravity{};
     static constexpr std::optional<double> relaxationTime{}, localDamping{}, filterRate{};
+    static constexpr std::optional<nodal::GravityRamp> gravityRamp{};
     static constexpr std::optional<splitting::Rule> splitting{};
     static constexpr std::optional<splitting::MergeRule> merging{};
     static constexpr std::optional<treatment::BulkViscosity> bulkViscosity{};

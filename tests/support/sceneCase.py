@@ -177,7 +177,7 @@ class SceneCase:
         ledger = last.ledger
         dim = last["velocity"].shape[1]
         sources = [ledger[n][:dim] for n in ("initialMomentum", "wallImpulse", "gravityImpulse", "tractionImpulse",
-                                          "dampingImpulse") if n in ledger]
+                                          "dampingImpulse", "restImpulse") if n in ledger]
         momentum = (last["mass"][:, None] * last["velocity"]).sum(axis=0)
         scale = (last["mass"][:, None] * np.abs(last["velocity"])).sum() + sum(np.abs(s).sum() for s in sources) + impulse
         if scale > 0:

@@ -74,6 +74,7 @@ int main(int argc, char** argv)
         {
             const auto gravityDict = read("constant/g");
             g = cases::readGravity(gravityDict, grid.dim);
+            cases::readGravityRamp(gravityDict); // of the solver; checked here too
             gravityDict.rejectUnread();
         }
         const auto materials = seeding::readMaterials(materialDict, g.value_or(Vector3{}), grid.dim);
