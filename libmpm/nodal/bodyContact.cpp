@@ -38,6 +38,12 @@ void BodyContact<dim>::place(double time, double dt, const state::GridBox& grid)
 }
 
 template <int dim>
+Vector3 BodyContact<dim>::positionAt(double time) const
+{
+    return (body_.motion ? body_.motion->pose(time) : body_.body->pose()).position;
+}
+
+template <int dim>
 double BodyContact<dim>::speedAt(double time) const
 {
     if (!body_.motion)

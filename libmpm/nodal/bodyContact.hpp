@@ -65,6 +65,7 @@ class BodyContact
     RigidBody& body() const { return *body_.body; }
     const std::string& name() const { return body_.name; }
     double speedAt(double time) const;
+    Vector3 positionAt(double time) const;
 
   private:
     HeldRow* nodesOf(NodeRow<dim>& row) const;

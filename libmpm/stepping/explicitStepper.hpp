@@ -316,7 +316,7 @@ class ExplicitStepper : public Stepper
     void bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha);
 
     void placeActors(double dt);
-    void reportActors();
+    void reportActors(double dt);
     double actorSpeed() const;
     /// Is anything prescribed that changes with time?
     bool driven() const

@@ -125,7 +125,7 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     }
     bookStressWork(dt);
     if (actors_ > 0)
-        reportActors();
+        reportActors(dt);
     state_.time += dt;
     state_.deltaT = dt;
     ++state_.step;

@@ -90,7 +90,7 @@ void ExplicitStepper<dim, Shape>::placeActors(double dt)
 
 /// What each of them met, summed over blocks in their order.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::reportActors()
+void ExplicitStepper<dim, Shape>::reportActors(double dt)
 {
     report_.actors.assign(std::size_t(actors_), {});
     std::vector<nodal::ActorSums> sums(std::size_t(actors_), nodal::ActorSums{});
@@ -110,7 +110,7 @@ void ExplicitStepper<dim, Shape>::reportActors()
         {
             auto& report = report_.actors[n];
             report.name = wall.wall().name;
-            report.position = wall.wall().motion->displacement(state_.time);
+            report.position = wall.wall().motion->displacement(state_.time + dt);
             report.velocity = wall.velocity();
             finish(report, sums[n++]);
         }
@@ -119,7 +119,7 @@ void ExplicitStepper<dim, Shape>::reportActors()
         auto& report = report_.actors[n];
         auto& body = contact.body();
         report.name = contact.name();
-        report.position = body.pose().position;
+        report.position = contact.positionAt(state_.time + dt);
         report.velocity = body.twist().velocity;
         report.angularVelocity = body.twist().angularVelocity;
         state_.ledger.bodyContacts += sums[n].contacts;

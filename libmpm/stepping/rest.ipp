@@ -89,7 +89,8 @@ bool ExplicitStepper<dim, Shape>::isDriven(const state::Tile& tile) const
         for (int a = 0; a < dim; ++a)
         {
             const double h = state_.grid.h, low = state_.grid.origin[a] + h * double(tile.window.lo[a] - 2);
-            near = near && body.high()[a] >= low && body.low()[a] <= low + h * double(tile.window.n[a] + 3);
+            near =
+                near && body.body().high()[a] >= low && body.body().low()[a] <= low + h * double(tile.window.n[a] + 3);
         }
         if (near)
             return true;

@@ -104,10 +104,10 @@ struct Scene
 struct ActorReport
 {
     std::string name;
-    Vector3 position{};        ///< of a body's reference point; displacement of a wall [m]
+    Vector3 position{};        ///< of a body's reference point, displacement of a wall, at the end of the step [m]
     Vector3 velocity{};        ///< mean of the step [m/s]
     Vector3 angularVelocity{}; ///< [rad/s]
-    Vector3 force{}, torque{}; ///< of the soil on it, about `position` [N, N m]; per metre in 2D
+    Vector3 force{}, torque{}; ///< of the soil on it, about the place its point began the step at; per metre in 2D
     Index contacts = 0;        ///< nodes pressed
 };
 

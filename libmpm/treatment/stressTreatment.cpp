@@ -93,7 +93,8 @@ std::optional<Objection> objection(const StressTreatment& t, const std::vector<c
                          "it with laws that carry stress on"};
     if (t.tensionGap && !firstWith(materials, [](const Law& law) { return law.dropsApexVolume(); }))
         return Objection{"tensionGap", "yes without a law that drops volume at an apex",
-                         "it with mohrCoulomb, dilationAngle 0 and frictionAngle > 0, without substep"};
+                         "it with mohrCoulomb or druckerPrager, dilationAngle 0 and frictionAngle > 0, without substep and "
+                         "tensionCutOff"};
     return std::nullopt;
 }
 } // namespace mpm::treatment

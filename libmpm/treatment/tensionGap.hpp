@@ -13,8 +13,9 @@
 ///
 ///     tensionGap  yes;             // in stressTreatment of system/mpmSchemes; default no
 ///
-/// Acts where a law drops volume at its apex: mohrCoulomb with dilationAngle 0 and frictionAngle > 0. Not with
-/// substep { }: parts of a step open and close on their own.
+/// Acts where a law drops volume at its apex: mohrCoulomb and druckerPrager with dilationAngle 0 and frictionAngle >
+/// 0. Not with substep { }: parts of a step open and close on their own; nor with a tensionCutOff below the apex, which
+/// keeps to a flow rule.
 /// Cost: one column. Verified in tests/unit/tensionGap.cpp.
 #include "constitutive/law.hpp"
 

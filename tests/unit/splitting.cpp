@@ -1,6 +1,7 @@
 // Splitting keeps mass, momentum, centre, volume, stress and the domain; it respects walls and caps.
 #include "splitting/splitParticles.hpp"
 #include "support/scenes.hpp"
+#include "support/treatmentScenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -167,4 +168,34 @@ TEST_CASE("caps on count and size are honoured")
     CHECK(long1.particles.size() == 4);
     CHECK(splitting::splitParticles(long1, r, {}).capped == 4);
     CHECK(long1.particles.size() == 4);
+}
+
+TEST_CASE("a run looks where the last step saw long edges, and splits what a look at all particles would")
+{
+    auto s = treated::block();
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        s.particles.v[0][i] = 2 * (s.particles.x[0][i] - 4.6);
+    s.particles.padLastChunk();
+    stepping::Scene sc;
+    sc.materials = {scenes::elastic(10, 0)};
+    for (const Index interval : {1, 7})
+    {
+        CAPTURE(interval);
+        sc.splitting = splitting::Rule{.threshold = 1.4, .mode = splitting::Mode::stretched, .interval = interval};
+        auto seen = s, everywhere = s;
+        const auto a = cases::makeStepper("uGIMP", seen, sc), b = cases::makeStepper("uGIMP", everywhere, sc);
+        for (auto* of : {&seen, &everywhere})
+            stepping::beginLedger(*of, sc.materials);
+        for (int n = 0; n < 400; ++n)
+        {
+            a->step(1e-3);
+            b->particlesChanged(); // it knows nothing of the last step then
+            b->step(1e-3);
+        }
+        CHECK(seen.ledger.splits > 20);
+        CHECK(seen.ledger.splits < 36 * 3);
+        CHECK(seen.particles.id == everywhere.particles.id);
+        for (int k = 0; k < 2; ++k)
+            CHECK(seen.particles.x[k] == everywhere.particles.x[k]);
+    }
 }
