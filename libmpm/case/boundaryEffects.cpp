@@ -1,7 +1,6 @@
 // Effects of boundaries: walls, and loads on the surface.
 #include "base/error.hpp"
 #include "case/effectCatalogue.hpp"
-#include "nodal/wall.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -126,47 +125,6 @@ Effect frictionEffect()
     return e;
 }
 
-/// Motion of walls, that of the base in an earthquake among them.
-Effect wallMotionEffect()
-{
-    using dictionary::Motion;
-    Effect e{.name = "wallMotion",
-             .family = EffectFamily::boundary,
-             .word = "motion { ... }",
-             .file = file,
-             .help = "a wall that moves as prescribed: pistons, shaken bases"};
-    e.uses = [](const EffectScene& s) {
-        return std::any_of(s.scene.walls.begin(), s.scene.walls.end(), [](const Wall& w) { return w.motion != nullptr; });
-    };
-    e.without = [](EffectScene& s) { // it stays where it is
-        for (auto& wall : s.scene.walls)
-            if (wall.motion)
-            {
-                wall.plane = nodal::wallPlane(wall, s.state.grid, s.state.time);
-                wall.motion.reset();
-            }
-    };
-    e.base = [](EffectScene& s) {
-        if (s.scene.walls.empty())
-            s.scene.walls.push_back(farWall(s, WallType::roller, true));
-    };
-    e.neutral = [](EffectScene& s) {
-        for (auto& wall : s.scene.walls)
-        {
-            wall.position = s.state.grid.origin[std::size_t(wall.axis)] + s.state.grid.h * double(wall.plane);
-            wall.motion = std::make_shared<Motion>(Motion::Given::velocity, dictionary::TimeFunction());
-        }
-    };
-    e.neutralText = "velocity (0 0 0)";
-    e.did = [](const EffectRun& run) -> Deed {
-        const double supplied = run.grown(&Ledger::motionSupply), work = run.grown(&Ledger::motionWork);
-        if (supplied == 0 && work == 0)
-            return {0, "J", "0 J of work", false};
-        return {work, "J", "work " + run.energy(work)};
-    };
-    return e;
-}
-
 Deed loadDeed(const EffectRun& run)
 {
     const double work = run.grown(&Ledger::tractionWork);
@@ -225,7 +183,6 @@ std::vector<Effect> boundaryEffects()
         wallEffect("fixed", WallType::fixed, "a wall that holds all motion"),
         wallEffect("roller", WallType::roller, "a wall that holds its normal and lets the body slide"),
         frictionEffect(),
-        wallMotionEffect(),
         loadEffect("traction", false, "a given load vector on a surface"),
         loadEffect("pressure", true, "a given pressure on a surface"),
     };

@@ -2,6 +2,7 @@
 #include "base/error.hpp"
 #include "case/effectCatalogue.hpp"
 #include "nodal/rigidBody.hpp"
+#include "nodal/wall.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,7 +40,11 @@ Effect movingWallEffect()
     };
     e.without = [](EffectScene& s) {
         for (auto& wall : s.scene.walls)
-            wall.motion.reset();
+            if (wall.motion) // it stays where it is
+            {
+                wall.plane = nodal::wallPlane(wall, s.state.grid, s.state.time);
+                wall.motion.reset();
+            }
     };
     e.base = [](EffectScene& s) {
         if (s.scene.walls.empty())

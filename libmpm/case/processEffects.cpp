@@ -95,13 +95,7 @@ Effect localDampingEffect()
     e.base = [](EffectScene& s) { s.scene.relaxationTime.reset(); };
     e.neutral = [](EffectScene& s) { s.scene.localDamping = 0.0; };
     e.neutralText = "coefficient 0";
-    e.pass = &stepping::PassTimes::nodal;
-    e.did = [](const EffectRun& run) -> Deed {
-        const double work = run.grown(&Ledger::dampingDissipation);
-        if (work == 0)
-            return {0, "J", "0 J dissipated", false};
-        return {work, "J", "took " + run.share(work)};
-    };
+    e.did = dampingDeed;
     return e;
 }
 

@@ -71,8 +71,6 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         sortByStoredKeys(state);
     else // the state of a run with other bodies
         sortByPosition(state, layout_, Narrow::nodes);
-    state.particles.keep(&state::Particles::family, scene.merging.has_value());
-    sortByStoredKeys(state);
 }
 
 template <int dim, class Shape>

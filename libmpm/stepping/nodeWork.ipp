@@ -267,7 +267,7 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProjection)
 {
     Clock clock(times_.nodal);
-    if (secondProjection && walls_.empty() && !contact_)
+    if (secondProjection && !touches() && !contact_)
         return forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) { projectAgainToRow(row, block); });
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         row.dt = dt;
