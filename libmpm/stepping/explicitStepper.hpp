@@ -196,6 +196,7 @@ class ExplicitStepper : public Stepper
     void finishSharedRows();
     void bookContact(nodal::NodeSums& sums);
     void strainTogether(bool secondProjection);
+    bool prescribed(int body) const { return contact_ && contact_->rigid(body); }
     bool shared(const state::Block& block) const
     {
         return contact_ && contact_->holds(std::size_t(&block - grid_.blocks().data()));

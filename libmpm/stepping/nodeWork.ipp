@@ -34,6 +34,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, B
             row.actors = actors_ > 0 && !actorSums_.empty() ? &actorSums_[b * std::size_t(actors_)] : nullptr;
             row.held = heldRows_.empty() ? nullptr : &heldRows_[b];
             row.projected = &projected;
+            row.body = block.body;
             row.begin = box.lo[0];
             row.end = box.lo[0] + box.n[0];
             for (row.k = box.lo[2]; row.k < box.lo[2] + box.n[2]; ++row.k)
@@ -150,6 +151,8 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 {
     nodal::beginRow(row);
+    if (prescribed(row.body))
+        return contact_->drive(row, state_.grid);
     for (const auto& effect : effects_)
         effect->apply(row);
     for (const auto& plane : absorbing_)
@@ -161,6 +164,11 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
 {
+    if (prescribed(row.body))
+    {
+        contact_->bookDrive(row);
+        return nodal::endRow(row, 1 / kick_);
+    }
     if (scene_.localDamping)
         localDamping_->apply(row);
     for (const auto& effect : effects_)
@@ -285,7 +293,9 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             if (!shared(block))
                 swapTrial(row);
         }
-        if (shared(block))
+        if (prescribed(block.body) && (secondProjection || !shared(block)))
+            contact_->followDrive(row);
+        if (shared(block) || prescribed(block.body))
             return;
         for (const auto& wall : walls_)
             wall.follow(row);

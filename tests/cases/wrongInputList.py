@@ -352,6 +352,8 @@ GROUPS = [
         contact("a pair below nothing", "bodies (soil plane); mu 0.3; pairs ((soil plane -1));"),
         contact("a way to touch that does not exist", "bodies (soil plane); mu 0.3; detection domain;"),
         contact("a word too many for contact", "bodies (soil plane); mu 0.3; cohesion 1e3;"),
+        Entry("a rigid material nobody touches", "mpmSolve",
+              edit(MATERIAL, "\nsoil\n{", "\nsoil\n{ law rigid; density 1000; }\nother\n{")),
         Entry("bodies where there is one material", "mpmSolve", write("constant/contactProperties", "bodies (soil); mu 0.3;\n")),
         contact("contact in a method of smooth equations", "bodies (soil plane); mu 0.3;",
                 write(SCHEMES, "shape uGIMP; transfer FLIP; timeIntegration RK4;\n")),
