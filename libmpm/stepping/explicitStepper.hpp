@@ -108,10 +108,7 @@ class ExplicitStepper : public Stepper
     bool bulkViscous() const { return scene_.bulkViscosity.has_value(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
-    bool relaxes() const
-    {
-        return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
-    }
+    bool relaxes() const;
 
     /// Sums over one tile; added in the order of the tiles.
     struct TileSums
@@ -329,10 +326,7 @@ class ExplicitStepper : public Stepper
     bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
-    void forEachRow(Body&& body)
-    {
-        forEachRow(reached_, body);
-    }
+    void forEachRow(Body&& body); ///< of the blocks reached_
     template <class Body>
     void forEachRow(const std::vector<Index>& blocks, Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;

@@ -60,6 +60,13 @@ void ExplicitStepper<dim, Shape>::sumWindows(const nodal::NodeRow<dim>& row, con
     });
 }
 
+template <int dim, class Shape>
+template <class Body>
+void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
+{
+    forEachRow(reached_, body);
+}
+
 /// The row's nodes: (m, p, f) summed over the windows of tiles.
 template <int dim, class Shape>
 template <class What>
