@@ -5,11 +5,14 @@ A case's report.py is written with it:
 
     measure(folder) -> Numbers       reads the run(s) below a folder, no drawing; tests of scaled-down copies call it too
     draw(folder)                     figures beside README.md
-    main(measure, draw)              the command line: report.py [-check]
+    variants(folder)                 copies of the case with other words (variant), where there are some
+    main(measure, draw, variants)    the command line
 
-`report.py` writes measured.csv, the figures and the part of README.md between `<!-- measured -->` and `<!-- end -->`, prints
-every number beside its expectation and ends with 1 if one is outside. `report.py -check` only compares README.md with
-measured.csv.
+    report.py                        measured.csv, figures, README.md; every number beside its expectation; 1 if one is outside
+    report.py -variants              makes variants/, whose runs Allrun does
+    report.py -check                 1 if README.md is not what measured.csv says
+
+The part of README.md that is written stands between `<!-- measured -->` and `<!-- end -->`.
 """
 
 import csv
@@ -69,7 +72,7 @@ def times(folder):
 def state(folder, time=math.inf):
     """The stored state nearest to a time; the last one without."""
     stored = times(folder)
-    return State(stored[min(stored, key=lambda t: abs(t - min(time, 1e300)))] / "state.h5")
+    return State(stored[max(stored) if time == math.inf else min(stored, key=lambda t: abs(t - time))] / "state.h5")
 
 
 def states(folder):
@@ -92,11 +95,14 @@ def entry(folder, file, word):
 
 def variant(folder, name, changes):
     """variants/<name>: a copy of the case with other words; changes: {(file, word): value}, in files that use `word value;`
-    or, in geometry, `word = value;`. The folder."""
+    or, in geometry, `word = value;`; {(file, None): None} leaves a file out. The folder."""
     case = Path(folder) / "variants" / name
     for part in ("geometry", "constant", "system"):
         shutil.copytree(Path(folder) / part, case / part, dirs_exist_ok=True)
     for (file, word), value in changes.items():
+        if word is None:
+            (case / file).unlink()
+            continue
         equals = "= " if file.startswith("geometry/") else ""
         text, count = re.subn(rf"(?m)^(\s*{word}\s+){equals}[^;]*;", rf"\g<1>{equals}{value};", (case / file).read_text())
         if count != 1:
@@ -210,16 +216,18 @@ def with_table(text, rows):
     return PART.sub(lambda found: found[1] + table(rows) + found[2], text)
 
 
-def main(measure, draw):
-    """report.py [-check] in the folder of the script."""
+def main(measure, draw, variants=None):
+    """The command line, for the folder of the script."""
     here = Path(sys.argv[0]).resolve().parent
     readme, numbers = here / "README.md", here / "measured.csv"
     if sys.argv[1:] == ["-check"]:
         with open(numbers, newline="") as file:
             same = with_table(readme.read_text(), list(csv.DictReader(file))) == readme.read_text()
         sys.exit(0 if same else "README.md is not what report.py writes: run it")
+    if sys.argv[1:] == ["-variants"] and variants:
+        return variants(here)
     if sys.argv[1:]:
-        sys.exit("report.py [-check]")
+        sys.exit("report.py [-check]" + (" [-variants]" if variants else ""))
     found = measure(here)
     found.write(numbers)
     draw(here)

@@ -1,10 +1,5 @@
 #!/usr/bin/python3
-"""Measures the pile of rods, draws figures and writes the table of README.md.
-
-    report.py -variants   makes variants/, whose runs Allrun does
-    report.py             measured.csv, figures, README.md; exit code 1 if a number is outside its band
-    report.py -check      is README.md what it would write?
-"""
+"""Measures the pile of rods, draws figures and writes the table of README.md (etc/sceneReport.py has the options)."""
 
 import os
 import sys
@@ -40,7 +35,7 @@ def make_variants(case):
     report.variant(case, "sand", sand)
 
 
-def profile(run, time=1e9, bin=0.01):
+def profile(run, time=np.inf, bin=0.01):
     edges = np.arange(0, 0.6 + 1e-9, bin)
     return edges, report.heap_profile(report.state(run, time), DENSITY, edges)
 
@@ -122,7 +117,4 @@ def sketch(case):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["-variants"]:
-        make_variants(Path(__file__).resolve().parent)
-    else:
-        report.main(measure, draw)
+    report.main(measure, draw, make_variants)
