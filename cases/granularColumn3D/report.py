@@ -14,7 +14,7 @@ import sceneReport as report  # noqa: E402
 
 R, DENSITY = 0.1, 1600  # [m], [kg/m^3]
 RATIOS = (0.5, 1, 2.5, 5)  # H/R; the folder itself has 1
-END = {0.5: 0.4, 1: 0.6, 2.5: 1, 5: 1.4}  # [s] about six fall times sqrt(H/g)
+END = {0.5: 0.6, 1: 0.6, 2.5: 1, 5: 1.4}  # [s] six fall times sqrt(H/g) and more
 LINEAR, ROOT = (0.5, 1), (2.5, 5)
 
 
@@ -42,7 +42,7 @@ def lube_height(a):
 
 
 def profile(run, time=np.inf):
-    edges = np.arange(0, 0.5 + 1e-9, 0.1 * R)
+    edges = np.arange(0, 0.7 + 1e-9, 0.1 * R)
     return edges, report.heap_profile(report.state(run, time), DENSITY, edges, radial=True)
 
 
