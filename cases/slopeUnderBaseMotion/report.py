@@ -20,6 +20,10 @@ BOUNDARIES, SOIL, GRID, CONTROL = ("constant/boundaryConditions", "constant/mate
 RATE = 0.05  # [1/s] of the push, over g
 AT_REST = 2.5  # [s] weight is there, the shaking is not
 V, W, T0, TAU = 0.55, 7.85, 7, 1.6  # constant/boundaryConditions
+PUSH = f"""/* libmpm: a push of the whole body */
+FoamFile {{ version 2.0; format ascii; class dictionary; object bodyForce; }}
+value       ("{RATE * G:g}*max(t - 2, 0)" 0 0);     // [m/s^2]
+"""
 RUNS = {"h 0.5 m": ".", "h 0.25 m": "fine", "weak": "weak", "softening": "softening", "push": "push"}
 
 
@@ -31,8 +35,8 @@ def make_variants(case):
     h, step = report.entry(case, GRID, "cellSize"), report.entry(case, CONTROL, "deltaT")
     report.variant(case, "fine", {(GRID, "cellSize"): repr(h / 2), (CONTROL, "deltaT"): repr(step)})
     report.variant(case, "weak", {(BOUNDARIES, "V"): "0.1"})
-    report.variant(case, "push", {(BOUNDARIES, "V"): "0", ("constant/bodyForce", "rate"): f"{RATE * G:g}",
-                                  (CONTROL, "endTime"): "7", (CONTROL, "writeInterval"): "0.1"})
+    push = report.variant(case, "push", {(BOUNDARIES, "V"): "0", (CONTROL, "endTime"): "7", (CONTROL, "writeInterval"): "0.1"})
+    (push / "constant/bodyForce").write_text(PUSH)
     soil = report.variant(case, "softening", {}) / SOIL
     soft = "softening { over 0.1; cohesion 0.5e3; frictionAngle 18; dilationAngle 0; referenceLength 0.5; }\n\n    initialStress"
     soil.write_text(soil.read_text().replace("initialStress", soft))
