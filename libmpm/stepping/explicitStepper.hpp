@@ -108,10 +108,7 @@ class ExplicitStepper : public Stepper
     bool bulkViscous() const { return scene_.bulkViscosity.has_value(); }
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
-    bool relaxes() const
-    {
-        return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
-    }
+    bool relaxes() const;
 
     /// Sums over one tile; added in the order of the tiles.
     struct TileSums
@@ -247,7 +244,7 @@ class ExplicitStepper : public Stepper
                                        double (&workOfForces)[lanes]);
     [[gnu::noinline]] void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
                                       double (&workOfForcesAfter)[lanes]);
-    void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
+    [[gnu::noinline]] void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
     void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
@@ -292,12 +289,13 @@ class ExplicitStepper : public Stepper
     bool longEdges(Workspace& ws, Index first, int count) const;
     void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
+    [[gnu::noinline]] void findStiffest(Workspace& ws, Index first, int count) const;
     void loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
     void forHyperelastic(Index first, int count, Body&& body) const;
     void storedEnergy(const Workspace& ws, Index first, int count, double (&stored)[lanes]) const;
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
-    void loadDomains(Workspace& ws, Index first, int count) const;
+    [[gnu::always_inline]] inline void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
     void checkInside(Workspace& ws, const Vectors& x) const;
     static void lap(Workspace& ws, double PassTimes::*part);
@@ -328,10 +326,7 @@ class ExplicitStepper : public Stepper
     bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
-    void forEachRow(Body&& body)
-    {
-        forEachRow(reached_, body);
-    }
+    void forEachRow(Body&& body);
     template <class Body>
     void forEachRow(const std::vector<Index>& blocks, Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
@@ -350,6 +345,7 @@ class ExplicitStepper : public Stepper
     List<nodal::BodyContact<dim>> bodies_;
     List<nodal::AbsorbingBoundary<dim>> absorbing_;
     Maybe wallsMove_ = false;
+    Maybe bounded_ = false; ///< bounded(), asked for every row of nodes
     int actors_ = 0;                                    ///< moving walls and rigid bodies
     std::vector<nodal::ActorSums> actorSums_;           ///< actors_ a block
     std::vector<std::vector<nodal::HeldRow>> heldRows_; ///< nodes that bodies hold, by block

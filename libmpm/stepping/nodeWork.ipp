@@ -9,6 +9,13 @@
 
 namespace mpm::stepping
 {
+template <int dim, class Shape>
+template <class Body>
+void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
+{
+    forEachRow(reached_, body);
+}
+
 /// Calls body(row, block) for all rows of the blocks; sums go to the block's place.
 template <int dim, class Shape>
 template <class Body>
@@ -152,9 +159,12 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
     nodal::beginRow(row);
     for (const auto& effect : effects_)
         effect->apply(row);
-    for (const auto& plane : absorbing_)
-        plane.absorb(row);
-    applyWalls(row);
+    if (bounded_)
+    {
+        for (const auto& plane : absorbing_)
+            plane.absorb(row);
+        applyWalls(row);
+    }
 }
 
 /// (v_i, u) -> (v*, a); books what was done.
