@@ -116,6 +116,10 @@ GravityLoading::GravityLoading(const CaseDirectory& folder, const Options& optio
     s.rest.reset();
     for (auto& wall : s.walls)
         wall.motion.reset();
+    for (auto& body : s.bodies)
+        body.motion.reset();
+    for (auto& side : s.absorbing)
+        side.incoming.reset();
     s.staggeredStart = false;
     s.timeIntegration = stepping::TimeIntegration::symplecticEuler;
     seeded_ = state_;
@@ -135,6 +139,10 @@ void GravityLoading::refuse(const Options& options) const
     if (state_.provenance.count("gravityLoading") && !options.overwrite)
         throw InputError({file}, "is loaded already; -overwrite loads it once more");
     const auto& s = scene_.scene;
+    if (s.gravityRamp)
+        throw InputError({"constant/g"},
+                         "ramp: found gravity that comes on while the run goes; allowed: gravity without it, "
+                         "as gravityLoading finds the stresses under all of it");
     if (!s.gravity && s.loads.empty() && !s.bodyForce)
         throw InputError(folder_.folder().string() +
                          ": found no load at all; allowed: constant/g, constant/bodyForce, or a traction or "

@@ -30,7 +30,8 @@
 /// without equilibrium (a slope that fails) comes to no rest: StepError after maxSteps or maxTime, nothing is written.
 /// So where positions are kept and each pass moves the body as far as the one before. Splitting, merging,
 /// staggeredStart, bulk viscosity, rest and Runge-Kutta steps do
-/// not take part, and walls that will move rest where they start. Verified in
+/// not take part, and walls and rigid bodies that will move rest where they
+/// start. Gravity must not come on by a ramp. Verified in
 /// tests/verification/gravityLoading.
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"

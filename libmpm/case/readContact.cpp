@@ -89,4 +89,32 @@ nodal::ContactProperties readContact(const Dictionary& d, const std::vector<cons
     out.detection = detection == "nodes" ? nodal::ContactDetection::nodes : nodal::ContactDetection::domains;
     return out;
 }
+
+void readRigidMotions(const Dictionary& d, const std::vector<constitutive::Material>& materials, int dim,
+                      nodal::ContactProperties* contact)
+{
+    for (std::size_t m = 0; m < materials.size(); ++m)
+    {
+        if (!materials[m].law->rigid())
+            continue;
+        const Dictionary& material = d.subDict(materials[m].name);
+        if (!contact)
+            material.fail("law", "rigid, and no constant/contactProperties",
+                          "rigid for a body that others meet: bodies (" + materials[m].name + " ...);");
+        const int body = contact->bodyOf[m];
+        for (std::size_t other = 0; other < materials.size(); ++other)
+            if (other != m && contact->bodyOf[other] == body)
+                material.fail("law", "rigid, in one body with material '" + materials[other].name + "'",
+                              "a body of its own in constant/contactProperties");
+        contact->motion.resize(contact->bodies.size());
+        nodal::RigidMotion motion;
+        if (const auto* dict = material.findDict("motion", "how a rigid material moves; default: at rest"))
+        {
+            if (const auto* rotation = dict->findDict("rotation"); rotation && !rotation->found("centre"))
+                rotation->fail("centre", "nothing", "a point of the axis at t = 0 [m]");
+            motion = nodal::RigidMotion::read(*dict, dim, {});
+        }
+        contact->motion[std::size_t(body)] = std::make_shared<const nodal::RigidMotion>(motion);
+    }
+}
 } // namespace mpm::cases

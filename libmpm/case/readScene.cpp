@@ -183,6 +183,8 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
         readBoundaries(open("constant/boundaryConditions"), state, out.scene);
     if (folder.hasFile("constant/contactProperties"))
         out.scene.contact = readContact(open("constant/contactProperties"), out.scene.materials);
+    readRigidMotions(materialProperties, out.scene.materials, state.particles.dim,
+                     out.scene.contact ? &*out.scene.contact : nullptr);
     if (folder.hasFile("constant/rigidBodies"))
         readRigidBodies(open("constant/rigidBodies"), state, out.scene);
     const Dictionary& schemes = open("system/mpmSchemes");

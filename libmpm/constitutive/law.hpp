@@ -102,6 +102,8 @@ class Law
     virtual bool dilates() const { return false; }
     /// Does a return to the apex drop volume (Chunk::apexStrain), of which one may ask where it is?
     virtual bool dropsApexVolume() const { return false; }
+    /// Does it move as prescribed (rigid.hpp)?
+    virtual bool rigid() const { return false; }
     /// The law if its stress is a function of the deformation gradient, else null.
     virtual const Hyperelastic* hyperelastic() const { return nullptr; }
 };

@@ -3,6 +3,7 @@
 #include "constitutive/linearElastic.hpp"
 #include "constitutive/mohrCoulomb.hpp"
 #include "constitutive/neoHookean.hpp"
+#include "constitutive/rigid.hpp"
 #include "constitutive/smallStrain.hpp"
 #include "constitutive/tresca.hpp"
 #include "constitutive/vonMises.hpp"
@@ -26,6 +27,7 @@ const std::vector<dictionary::Choice>& lawCatalogue()
         {"hencky", "hyperelastic, Kirchhoff stress linear in the logarithmic strain"},
         {"smallStrain", "hyperelastic, nominal stress linear in the stretch (in the displacement gradient)"},
         {"vonMises", "elastic, perfectly plastic von Mises"},
+        {"rigid", "moves as prescribed and pushes others by contact"},
     };
     return laws;
 }
@@ -47,6 +49,8 @@ std::unique_ptr<Law> makeLaw(const dictionary::Dictionary& material)
         return std::make_unique<SmallStrain>(SmallStrain::read(material));
     if (law == "vonMises")
         return std::make_unique<VonMises>(VonMises::read(material));
+    if (law == "rigid")
+        return std::make_unique<Rigid>(Rigid::read(material));
     return std::make_unique<LinearElastic>(LinearElastic::read(material));
 }
 } // namespace mpm::constitutive

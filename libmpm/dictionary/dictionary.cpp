@@ -246,7 +246,8 @@ std::filesystem::path Dictionary::file(const std::string& word, const std::strin
         fail(word, "'" + name + "', which lies outside the case folder", "a file of the case, as \"constant/file\"");
     if (!std::filesystem::is_regular_file(path))
         fail(word, "'" + name + "', no such file", "a file of the case, as \"constant/file\"");
-    return path;
+    const auto here = path.lexically_relative(std::filesystem::current_path()); // as dictionaries are named in messages
+    return here.empty() || *here.begin() == ".." ? path : here;
 }
 
 void Dictionary::passOver(const std::string& word, const std::string& help) const

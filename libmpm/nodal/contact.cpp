@@ -1,5 +1,7 @@
 #include "nodal/contact.hpp"
 
+#include "nodal/vectors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +18,6 @@ Vector3 lanesOf(const Record& r, int first)
     return v;
 }
 
-double dot(const Vector3& a, const Vector3& b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 Vector3 across(const Vector3& d, const Vector3& n)
 {
     const double along = dot(d, n);
@@ -29,12 +26,12 @@ Vector3 across(const Vector3& d, const Vector3& n)
 
 /// Takes the impulse J from one node and gives it to another.
 template <int dim>
-void exchange(Record& one, Record& other, const Vector3& J)
+void exchange(Record& one, Record& other, const Vector3& inverse, const Vector3& J)
 {
     for (int a = 0; a < dim; ++a)
     {
-        one[1 + dim + a] -= J[a] / one[0];
-        other[1 + dim + a] += J[a] / other[0];
+        one[1 + dim + a] -= inverse[0] * J[a];
+        other[1 + dim + a] += inverse[1] * J[a];
     }
 }
 } // namespace
@@ -56,6 +53,73 @@ void Contact<dim>::arrange(const state::TileGrid& nodes)
             blocks_.push_back(Index(b));
     const auto& last = nodes.blocks().empty() ? state::Block{} : nodes.blocks().back();
     impulse_.assign(last.start + std::size_t(last.box.size()), {});
+}
+
+/// 1/m_1, 1/m_2 and the reduced mass.
+template <int dim>
+Vector3 Contact<dim>::inverseMasses(const Record* records, const Pair& pair)
+{
+    Vector3 out{};
+    for (std::size_t s = 0; s < 2; ++s)
+        out[s] = pair.rigid[s] ? 0 : 1 / records[pair.place[s]][0];
+    out[2] = 1 / (out[0] + out[1]);
+    return out;
+}
+
+template <int dim>
+void Contact<dim>::place(double time, double dt)
+{
+    drivenFor_ = dt;
+    poses_.resize(properties_.motion.size());
+    for (std::size_t b = 0; b < poses_.size(); ++b)
+        if (const auto& motion = properties_.motion[b])
+            poses_[b] = {motion->pose(time), motion->pose(time + dt)};
+}
+
+template <int dim>
+void Contact<dim>::drive(NodeRow<dim>& row, const state::GridBox& grid) const
+{
+    const auto& [from, to] = poses_[std::size_t(row.body)];
+    for (Index i = row.begin; i < row.end; ++i)
+    {
+        const Index node[3] = {i, row.j, row.k};
+        Vector3 arm{}, body{};
+        for (std::size_t a = 0; a < dim; ++a)
+            arm[a] = grid.origin[a] + grid.h * double(node[a]) - from.position[a];
+        for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t b = 0; b < 3; ++b)
+                body[a] += from.rotation[3 * b + a] * arm[b];
+        for (std::size_t a = 0; a < dim; ++a)
+        {
+            double end = to.position[a] - from.position[a] - arm[a];
+            for (std::size_t b = 0; b < 3; ++b)
+                end += to.rotation[3 * a + b] * body[b];
+            row.node[i][row.trial + int(a)] = row.carries(i) ? end / drivenFor_ : 0;
+        }
+    }
+}
+
+template <int dim>
+void Contact<dim>::followDrive(NodeRow<dim>& row)
+{
+    for (Index i = row.begin; i < row.end; ++i)
+        for (int a = 0; a < dim; ++a)
+            row.node[i][row.trial + a] = row.node[i][row.velocity + a];
+}
+
+template <int dim>
+void Contact<dim>::bookDrive(NodeRow<dim>& row)
+{
+    for (Index i = row.begin; i < row.end; ++i)
+        for (int a = 0; a < dim && row.carries(i); ++a)
+        {
+            const Record& r = row.node[i];
+            const double before = r[row.velocity + a], after = r[row.trial + a];
+            const double force = row.dt * (*row.projected)[std::size_t(i - row.begin)][row.trial + a];
+            const double J = r[0] * (after - before) - force - (row.contact ? row.contact[i][a] : 0);
+            row.sums->motionWork += 0.5 * J * (before + after);
+            row.sums->wallImpulse[std::size_t(a)] += J;
+        }
 }
 
 template <int dim>
@@ -94,7 +158,8 @@ void Contact<dim>::solve(Record* records, double dt, Pair* begin, Pair* end)
         for (Pair* p = begin; p < end; ++p)
         {
             Record &one = records[p->place[0]], &other = records[p->place[1]];
-            const double reduced = 1 / (1 / one[0] + 1 / other[0]);
+            const Vector3 inverse = inverseMasses(records, *p);
+            const double reduced = inverse[2];
             const Vector3 u = lanesOf<dim>(one, 1 + dim), v = lanesOf<dim>(other, 1 + dim);
             const Vector3 d{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
             const double before = p->push;
@@ -110,7 +175,7 @@ void Contact<dim>::solve(Record* records, double dt, Pair* begin, Pair* end)
             Vector3 J{};
             for (int a = 0; a < dim; ++a)
                 J[a] = (p->push - before) * p->n[a] + p->rub[a] - rubbed[a];
-            exchange<dim>(one, other, J);
+            exchange<dim>(one, other, inverse, J);
             for (int a = 0; a < dim; ++a)
             {
                 impulse_[std::size_t(p->place[0])][a] -= J[a];
@@ -137,7 +202,8 @@ void Contact<dim>::follow(state::TileGrid& nodes, int layer) const
         const double open = std::max(p.gap, 0.0) / dt_;
         const double excess = dot(d, p.n) - (p.push > 0 ? dot(star, p.n) : open);
         Vector3 J{};
-        const double reduced = 1 / (1 / records[p.place[0]][0] + 1 / records[p.place[1]][0]);
+        const Vector3 inverse = inverseMasses(records, p);
+        const double reduced = inverse[2];
         if (p.push > 0 || excess > 0)
             for (int a = 0; a < dim; ++a)
                 J[a] = reduced * excess * p.n[a];
@@ -147,7 +213,7 @@ void Contact<dim>::follow(state::TileGrid& nodes, int layer) const
             for (int a = 0; a < dim; ++a)
                 J[a] += reduced * slip[a];
         }
-        exchange<dim>(r, s, J);
+        exchange<dim>(r, s, inverse, J);
     };
     const int count = int(boxes_.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -167,16 +233,16 @@ ContactSums Contact<dim>::book(const state::TileGrid& nodes, const std::vector<R
             if (!(p.push > 0))
                 continue;
             const Record &r = records[p.place[0]], &s = records[p.place[1]];
-            const double m = r[0], M = s[0], slipping = dot(p.rub, p.rub);
+            const Vector3 inverse = inverseMasses(records, p);
+            const double slipping = dot(p.rub, p.rub);
             double work = 0, friction = 0;
             Vector3 d{}, change{}, force{}; // of the difference: v*, v_i - v*; the force that drives it
             for (int a = 0; a < dim; ++a)
             {
                 d[a] = r[1 + a] - s[1 + a];
                 change[a] = -dt * (r[1 + dim + a] - s[1 + dim + a]);
-                force[a] = (M * projected[std::size_t(p.place[0])][1 + dim + a] -
-                            m * projected[std::size_t(p.place[1])][1 + dim + a]) /
-                           (m + M);
+                force[a] = inverse[2] * (inverse[0] * projected[std::size_t(p.place[0])][1 + dim + a] -
+                                         inverse[1] * projected[std::size_t(p.place[1])][1 + dim + a]);
                 work -= (p.push * p.n[a] + p.rub[a]) * (d[a] + 0.5 * change[a]);
                 friction += p.rub[a] * d[a];
             }

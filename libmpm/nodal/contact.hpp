@@ -24,6 +24,10 @@
 /// reason): pairs in contact keep the normal difference of v*, those that stick all of it, and others do not approach
 /// by more than their gap.
 ///
+/// A rigid body (constitutive/rigid.hpp) counts as an infinite mass. Its nodes move from x_i to where the pose at the end
+/// of the step takes them, so its particles do; what that takes, J = m (v* - v_i) less all other impulses, is booked as
+/// motionWork J.(v_i + v*)/2, and among the impulses of walls.
+///
 /// Energy: contactFriction = - sum J_t . v*, never negative, and contactLoss, the rest of the work of both impulses:
 /// m* ((v_i,1 - v_i,2).n)^2/2 of an impact, shared with the work of forces as for walls (nodeRow.hpp).
 ///
@@ -39,6 +43,7 @@
 /// two cells between parts of one other body is not seen from both sides. Verified in tests/unit/contact.cpp,
 /// tests/verification/{contactOnIncline,contactOfDiscs}.
 #include "nodal/contactProperties.hpp"
+#include "nodal/nodeRow.hpp"
 #include "state/gridBox.hpp"
 #include "state/tileGrid.hpp"
 
@@ -82,6 +87,15 @@ class Contact
     void follow(state::TileGrid& nodes, int layer) const;
     /// After the nodal equations (lanes v*, a); `projected` has the records (m, p, f) of all nodes by place.
     ContactSums book(const state::TileGrid& nodes, const std::vector<Record>& projected, double dt) const;
+    /// Where rigid bodies go in the coming step.
+    void place(double time, double dt);
+    bool rigid(int body) const { return !poses_.empty() && properties_.motion[std::size_t(body)]; }
+    /// u of a rigid body's nodes, after beginRow.
+    void drive(NodeRow<dim>& row, const state::GridBox& grid) const;
+    /// w = v*.
+    static void followDrive(NodeRow<dim>& row);
+    /// Work and impulse of who drives it, before endRow.
+    static void bookDrive(NodeRow<dim>& row);
     /// Impulses of contact on the nodes, by place.
     const std::vector<Vector3>& impulses() const { return impulse_; }
 
@@ -90,6 +104,7 @@ class Contact
     struct Pair
     {
         std::array<Index, 2> place{};      ///< of their nodes
+        std::array<bool, 2> rigid{};
         std::array<std::size_t, 2> side{}; ///< their blocks among those of the box
         Index node = 0;                    ///< within the box
         double mu = 0;
@@ -109,6 +124,7 @@ class Contact
     void gatherClouds(const state::TileGrid& nodes, const state::Particles& p, const state::GridBox& grid,
                       const Box& box, Clouds& clouds) const;
     bool locate(const state::Particles& p, const Clouds& clouds, double h, Pair& pair) const;
+    static Vector3 inverseMasses(const Record* records, const Pair& pair);
     void solve(Record* records, double dt, Pair* begin, Pair* end);
     template <class Work>
     void forEachBox(Work&& work);
@@ -119,7 +135,8 @@ class Contact
     std::vector<Index> blocks_;
     std::vector<Box> boxes_;
     std::vector<Vector3> impulse_;
-    double dt_ = 0;
+    double dt_ = 0, drivenFor_ = 0;
+    std::vector<std::array<Pose, 2>> poses_; ///< of rigid bodies, at the start and the end of the step
 };
 
 template <int dim>

@@ -107,9 +107,10 @@ void Contact<dim>::findPairs(const state::TileGrid& nodes, double smallestMass, 
             for (std::size_t other = one + 1; other < box.blocks.size(); ++other)
             {
                 const Index place = placeOf(blockOf(one)), otherPlace = placeOf(blockOf(other));
-                if (place < 0 || otherPlace < 0)
-                    continue;
                 Pair pair;
+                pair.rigid = {rigid(blockOf(one).body), rigid(blockOf(other).body)};
+                if (place < 0 || otherPlace < 0 || (pair.rigid[0] && pair.rigid[1]))
+                    continue;
                 pair.place = {place, otherPlace};
                 pair.side = {one, other};
                 pair.node = offset;

@@ -87,6 +87,7 @@ struct NodeRow
 {
     Index begin = 0, end = 0; ///< lattice indices along x
     Index j = 0, k = 0;       ///< lattice indices of the row
+    int body = 0;             ///< whose nodes they are
     Record* node = nullptr;   ///< node[i], begin <= i < end
     double dt = 0;
     double time = 0;         ///< at the start of the step [s]

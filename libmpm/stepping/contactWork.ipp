@@ -48,7 +48,8 @@ void ExplicitStepper<dim, Shape>::finishSharedRows()
         row.dt = kick_;
         row.projected->assign(from, from + (row.end - row.begin));
         row.contact = contact_->impulses().data() + at - row.begin;
-        applyWalls(row);
+        if (!prescribed(row.body))
+            applyWalls(row);
         if (bounded() && !kept_.byWalls[at].pushed.empty())
             row.walls->add(kept_.byWalls[at]);
         finishRow(row);
@@ -73,10 +74,16 @@ void ExplicitStepper<dim, Shape>::strainTogether(bool secondProjection)
     if (!secondProjection)
     {
         meetBodies();
-        forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) { swapTrial(row); });
+        forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
+            swapTrial(row);
+            if (prescribed(row.body))
+                contact_->followDrive(row);
+        });
     }
     contact_->follow(grid_, 0);
     forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
+        if (prescribed(row.body))
+            return;
         for (const auto& wall : walls_)
             wall.follow(row);
         for (const auto& body : bodies_)

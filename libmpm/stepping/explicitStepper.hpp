@@ -193,6 +193,7 @@ class ExplicitStepper : public Stepper
     void finishSharedRows();
     void bookContact(nodal::NodeSums& sums);
     void strainTogether(bool secondProjection);
+    bool prescribed(int body) const { return contact_ && contact_->rigid(body); }
     bool shared(const state::Block& block) const
     {
         return contact_ && contact_->holds(std::size_t(&block - grid_.blocks().data()));
@@ -326,7 +327,7 @@ class ExplicitStepper : public Stepper
     bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
-    void forEachRow(Body&& body);
+    void forEachRow(Body&& body); ///< of the blocks reached_
     template <class Body>
     void forEachRow(const std::vector<Index>& blocks, Body&& body);
     [[noreturn]] void fail(Index particle, const std::string& what) const;

@@ -89,6 +89,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
     project();
     if (driven())
         placeActors(dt);
+    if (contact_)
+        contact_->place(state_.time, dt);
     kick_ = scene_.staggeredStart && state_.step == 0 ? 0.5 * dt : dt;
     switch (scene_.stressUpdate)
     {

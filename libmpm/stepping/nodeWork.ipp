@@ -9,13 +9,6 @@
 
 namespace mpm::stepping
 {
-template <int dim, class Shape>
-template <class Body>
-void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
-{
-    forEachRow(reached_, body);
-}
-
 /// Calls body(row, block) for all rows of the blocks; sums go to the block's place.
 template <int dim, class Shape>
 template <class Body>
@@ -41,6 +34,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, B
             row.actors = actors_ > 0 && !actorSums_.empty() ? &actorSums_[b * std::size_t(actors_)] : nullptr;
             row.held = heldRows_.empty() ? nullptr : &heldRows_[b];
             row.projected = &projected;
+            row.body = block.body;
             row.begin = box.lo[0];
             row.end = box.lo[0] + box.n[0];
             for (row.k = box.lo[2]; row.k < box.lo[2] + box.n[2]; ++row.k)
@@ -64,6 +58,13 @@ void ExplicitStepper<dim, Shape>::sumWindows(const nodal::NodeRow<dim>& row, con
         for (Index i = 0; i < end - begin; ++i)
             out[i] += in[i];
     });
+}
+
+template <int dim, class Shape>
+template <class Body>
+void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
+{
+    forEachRow(reached_, body);
 }
 
 /// The row's nodes: (m, p, f) summed over the windows of tiles.
@@ -157,6 +158,8 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 {
     nodal::beginRow(row);
+    if (prescribed(row.body))
+        return contact_->drive(row, state_.grid);
     for (const auto& effect : effects_)
         effect->apply(row);
     if (bounded_)
@@ -171,6 +174,11 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
 {
+    if (prescribed(row.body))
+    {
+        contact_->bookDrive(row);
+        return nodal::endRow(row, 1 / kick_);
+    }
     if (scene_.localDamping)
         localDamping_->apply(row);
     for (const auto& effect : effects_)
@@ -295,7 +303,9 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
             if (!shared(block))
                 swapTrial(row);
         }
-        if (shared(block))
+        if (prescribed(block.body) && (secondProjection || !shared(block)))
+            contact_->followDrive(row);
+        if (shared(block) || prescribed(block.body))
             return;
         for (const auto& wall : walls_)
             wall.follow(row);

@@ -17,7 +17,7 @@ void ExplicitStepper<dim, Shape>::prepareRest()
         return;
     restWave_ = std::numeric_limits<double>::infinity();
     for (const auto& material : scene_.materials)
-        if (material.waveSpeed() < restWave_)
+        if (!material.law->rigid() && material.waveSpeed() < restWave_)
         {
             restWave_ = material.waveSpeed();
             restStress_ = scene_.rest->tolerance * material.density * restWave_ * restWave_;
@@ -126,7 +126,7 @@ void ExplicitStepper<dim, Shape>::layToRest()
     {
         const auto& tile = grid_.tiles()[t];
         const auto touched = [&](const auto& o) { return shared(grid_.blocks()[std::size_t(o.block)]); };
-        if (contact_ && std::any_of(tile.blocks.begin(), tile.blocks.end(), touched))
+        if (prescribed(tile.body) || (contact_ && std::any_of(tile.blocks.begin(), tile.blocks.end(), touched)))
             continue;
         const auto* looks = p.quietLooks.data() + tile.first;
         if (!std::all_of(looks, looks + tile.count, [&](double n) { return n >= double(scene_.rest->looks); }))

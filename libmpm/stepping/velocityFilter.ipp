@@ -76,6 +76,11 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
             complete(row, block, out);
             for (Index i = row.begin; i < row.end; ++i)
                 out[i][0] = row.node[i][0];
+            if (!prescribed(row.body))
+                return;
+            nodal::NodeRow<dim> held = row;
+            held.node = out;
+            contact_->followDrive(held);
         });
         contact_->follow(grid_, filterLayer);
     }
@@ -94,9 +99,11 @@ void ExplicitStepper<dim, Shape>::filterVelocities()
         nodal::NodeRow<dim> held = row;
         held.node = out;
         for (const auto& wall : walls_)
-            wall.follow(held);
+            if (!prescribed(row.body))
+                wall.follow(held);
         for (const auto& body : bodies_)
-            body.follow(held);
+            if (!prescribed(row.body))
+                body.follow(held);
         book(1);
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)

@@ -1,0 +1,19 @@
+// A slope of 45 degrees, 6 m high, on 2 m of the same soil over rock. Lengths in metres.
+Point(1) = {0, 0, 0};
+Point(2) = {28, 0, 0};
+Point(3) = {28, 2, 0};
+Point(4) = {20, 2, 0};
+Point(5) = {14, 8, 0};
+Point(6) = {0, 8, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Physical Surface("soil") = {1};
+Physical Curve("rock") = {1};
+Physical Curve("right") = {2};
+Physical Curve("left") = {6};
