@@ -304,13 +304,15 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
     alignas(64) double vv[lanes];
     if (pass.blends)
         blendVelocity(ws, dt, pass);
+    else
+        for (int a = 0; a < dim; ++a)
+            for (int l = 0; l < lanes; ++l)
+            {
+                ws.v[a][l] += kick_ * ws.value.a[a][l];
+                ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.v[a][l];
+            }
     for (int a = 0; a < dim; ++a)
     {
-        for (int l = 0; l < lanes && !pass.blends; ++l)
-        {
-            ws.v[a][l] += kick_ * ws.value.a[a][l];
-            ws.xNew[a][l] = ws.x[a][l] + dt * ws.value.v[a][l];
-        }
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
     }

@@ -245,7 +245,7 @@ class ExplicitStepper : public Stepper
                                        double (&workOfForces)[lanes]);
     [[gnu::noinline]] void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
                                       double (&workOfForcesAfter)[lanes]);
-    void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
+    [[gnu::noinline]] void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
     void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
@@ -290,12 +290,13 @@ class ExplicitStepper : public Stepper
     bool longEdges(Workspace& ws, Index first, int count) const;
     void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
+    [[gnu::noinline]] void findStiffest(Workspace& ws, Index first, int count) const;
     void loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
     void forHyperelastic(Index first, int count, Body&& body) const;
     void storedEnergy(const Workspace& ws, Index first, int count, double (&stored)[lanes]) const;
     void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
-    void loadDomains(Workspace& ws, Index first, int count) const;
+    [[gnu::always_inline]] inline void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
     void checkInside(Workspace& ws, const Vectors& x) const;
     static void lap(Workspace& ws, double PassTimes::*part);
@@ -345,6 +346,7 @@ class ExplicitStepper : public Stepper
     List<nodal::BodyContact<dim>> bodies_;
     List<nodal::AbsorbingBoundary<dim>> absorbing_;
     Maybe wallsMove_ = false;
+    Maybe bounded_ = false; ///< bounded(), asked for every row of nodes
     int actors_ = 0;                                    ///< moving walls and rigid bodies
     std::vector<nodal::ActorSums> actorSums_;           ///< actors_ a block
     std::vector<std::vector<nodal::HeldRow>> heldRows_; ///< nodes that bodies hold, by block

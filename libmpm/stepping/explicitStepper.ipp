@@ -44,6 +44,7 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         bodies_.emplace_back(body, state.grid, actors_++);
     for (const auto& plane : scene.absorbing)
         absorbing_.emplace_back(plane);
+    bounded_ = bounded();
     for (const auto& load : scene.loads)
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)

@@ -116,15 +116,10 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
         ws.volume[l] *= ws.J[l];
         ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
     }
-    if (hasHistory())
-        transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
-    if (treated() && (scene_.treatment.tensionGap || scene_.treatment.averagesElasticPart() ||
-                      scene_.treatment.followsFlow()))
+    if (treated() || hasHistory())
         callTreatedLaws(ws, first, count, dt);
     else
         callLaws(first, count, chunk);
-    if (hasHistory())
-        transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     ws.ahead.some(5);
 
     constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
@@ -144,19 +139,10 @@ void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile&
     for (int k = 0; k < stressSize<dim>; ++k)
         transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
 
-    alignas(64) double stiffJ[lanes];
-    std::copy_n(ws.J, lanes, stiffJ);
-    for (int l = 0; l < lanes && plastic(); ++l)
-        stiffJ[l] = chunk.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
-    if (hyperelastic())
-        forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
-            alignas(64) double own[lanes];
-            law.waveFactor(ws.F, own);
-            for (int l = 0; l < lanes; ++l)
-                if (mine(l))
-                    stiffJ[l] = own[l];
-        });
-    sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(stiffJ));
+    if (hyperelastic() || plastic())
+        findStiffest(ws, first, count);
+    else
+        sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(ws.J));
     workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
     workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
     sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
@@ -221,6 +207,23 @@ bool ExplicitStepper<dim, Shape>::longEdges(Workspace& ws, Index first, int coun
         }
     }
     return transfer::largest(over) > 0;
+}
+
+/// For the wave speed: det F of what carries stress, and waveFactor of hyperelastic laws.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::findStiffest(Workspace& ws, Index first, int count) const
+{
+    alignas(64) double stiffJ[lanes];
+    for (int l = 0; l < lanes; ++l)
+        stiffJ[l] = ws.law.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
+    forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+        alignas(64) double own[lanes];
+        law.waveFactor(ws.F, own);
+        for (int l = 0; l < lanes; ++l)
+            if (mine(l))
+                stiffJ[l] = own[l];
+    });
+    ws.sums.largestJacobian = std::max(ws.sums.largestJacobian, transfer::largest(stiffJ));
 }
 
 /// 1/(2 K) and 1/(4 G) of each lane's material.

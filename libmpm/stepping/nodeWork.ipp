@@ -162,9 +162,12 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
         return contact_->drive(row, state_.grid);
     for (const auto& effect : effects_)
         effect->apply(row);
-    for (const auto& plane : absorbing_)
-        plane.absorb(row);
-    applyWalls(row);
+    if (bounded_)
+    {
+        for (const auto& plane : absorbing_)
+            plane.absorb(row);
+        applyWalls(row);
+    }
 }
 
 /// (v_i, u) -> (v*, a); books what was done.

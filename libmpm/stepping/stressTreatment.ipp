@@ -148,7 +148,7 @@ void ExplicitStepper<dim, Shape>::treatAfter(Workspace& ws, Index first, int cou
         loseToAverage(ws, dt, ws.volume, workOfForcesAfter);
 }
 
-/// The laws with tension gaps; what they leave of plastic volume change, and that they yielded.
+/// The laws with histories and tension gaps; what they leave of plastic volume change, and that they yielded.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt)
 {
@@ -164,7 +164,11 @@ void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, in
         open = !transfer::allWithin(ws.gap.gap, 0, 0);
         treatment::openGap(chunk, ws.gap, open);
     }
+    if (hasHistory())
+        transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     callLaws(first, count, chunk);
+    if (hasHistory())
+        transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     if (scene_.treatment.tensionGap && (open || chunk.apexReturns > 0))
     {
         treatment::closeGap(chunk, ws.gap);

@@ -115,7 +115,7 @@ inline bool allWithin(const Lanes& a, double low, double high)
 
 /// out = column[0 .. count), repeated from the last value on, so that all lanes hold numbers kernels can work with.
 template <class T>
-void loadLanes(const T* column, int count, Lanes& out)
+[[gnu::always_inline]] inline void loadLanes(const T* column, int count, Lanes& out)
 {
     if (count == lanes)
     {
@@ -129,7 +129,7 @@ void loadLanes(const T* column, int count, Lanes& out)
 
 /// The same with zero in the lanes beyond: masses and volumes, so that sums over all lanes are those of the particles.
 template <class T>
-void loadLanesOrZero(const T* column, int count, Lanes& out)
+[[gnu::always_inline]] inline void loadLanesOrZero(const T* column, int count, Lanes& out)
 {
     loadLanes(column, count, out);
     for (int l = count; l < lanes; ++l)
@@ -139,7 +139,7 @@ void loadLanesOrZero(const T* column, int count, Lanes& out)
 /// column = in. What a column of floats cannot hold is taken from `in` as well: what follows in a pass works with the
 /// numbers that a pass of its own, or a restart, would load.
 template <class T>
-void storeLanes(T* column, int count, Lanes& in)
+[[gnu::always_inline]] inline void storeLanes(T* column, int count, Lanes& in)
 {
     if constexpr (!std::is_same_v<T, double>)
         for (int l = 0; l < lanes; ++l)

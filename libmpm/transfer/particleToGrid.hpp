@@ -49,7 +49,7 @@ struct ParticleRecords<dim, Momentum>
 {
     HalfRecord r[lanes];
 
-    void build(const double (&mass)[lanes], const double (&v)[dim][lanes])
+    [[gnu::always_inline]] void build(const double (&mass)[lanes], const double (&v)[dim][lanes])
     {
         for (int g = 0; g < lanes; g += 8)
         {
