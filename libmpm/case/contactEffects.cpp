@@ -33,7 +33,8 @@ Effect contactEffect()
     e.neutral = [](EffectScene& s) {
         s.scene.contact = nodal::ContactProperties{.bodies = {"all", "none"},
                                                    .bodyOf = std::vector<int>(s.scene.materials.size(), 0),
-                                                   .mu = {{0, 0}, {0, 0}}};
+                                                   .mu = {{0, 0}, {0, 0}},
+                                                   .motion = {}};
     };
     e.neutralText = "bodies that never meet";
     e.did = contactDeed;

@@ -77,35 +77,36 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     loadDomains(ws, first, count);
 
     if (pass.velocity || pass.gathers || pass.byStrainVelocity)
-        withWeights(ws, ws.x, [&](auto& w) __attribute__((always_inline)) {
-            w.locate(tile.window); // as when these particles were projected
-            lap(ws, &PassTimes::weights);
-            if (pass.velocity)
-            {
-                if (pass.filtered)
-                    gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
-                gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
-                advanceVelocity(ws, first, count, dt, pass);
-                if (pass.affine)
-                    advanceAffine(ws, w, tile, first, count);
-                lap(ws, &PassTimes::toParticles);
-            }
-            if (pass.reproject)
-            {
-                ws.momentum.build(ws.mass, ws.v);
-                projectMomentum(ws, w, tile, ws.x, first, count, pass.affine);
-            }
-            if (pass.byStrainVelocity)
-            {
-                gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch); // v* and w
-                moveByStrainVelocity(ws, first, count, dt);
-            }
-            if (pass.gathers)
-            {
-                gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
-                lap(ws, &PassTimes::toParticles);
-            }
-        });
+        withWeights(
+            ws, ws.x, [&](auto& w) __attribute__((always_inline)) {
+                w.locate(tile.window); // as when these particles were projected
+                lap(ws, &PassTimes::weights);
+                if (pass.velocity)
+                {
+                    if (pass.filtered)
+                        gatherValues(w, ws.filteredValues.data(), tile.window, ws.filtered, prefetch);
+                    gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch);
+                    advanceVelocity(ws, first, count, dt, pass);
+                    if (pass.affine)
+                        advanceAffine(ws, w, tile, first, count);
+                    lap(ws, &PassTimes::toParticles);
+                }
+                if (pass.reproject)
+                {
+                    ws.momentum.build(ws.mass, ws.v);
+                    projectMomentum(ws, w, tile, ws.x, first, count, pass.affine);
+                }
+                if (pass.byStrainVelocity)
+                {
+                    gatherValues(w, ws.values.data(), tile.window, ws.value, prefetch); // v* and w
+                    moveByStrainVelocity(ws, first, count, dt);
+                }
+                if (pass.gathers)
+                {
+                    gatherGradient(w, ws.gradients.data(), tile.window, ws.L, prefetch);
+                    lap(ws, &PassTimes::toParticles);
+                }
+            });
     if (pass.strain)
     {
         updateStress(ws, tile, first, count, dt);
@@ -119,32 +120,33 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
             transfer::loadLanes(next_[a].data() + first, count, ws.xNew[a]);
     const Vectors& x = pass.moves ? ws.xNew : ws.x;
     checkInside(ws, x);
-    withWeights(ws, x, [&](auto& w) __attribute__((always_inline)) {
-        const bool reached = w.locate(tile.window);
-        lap(ws, &PassTimes::weights);
-        ws.sums.stray = ws.sums.stray || !reached;
-        if (ws.sums.stray)
-            return;
-        if (pass.then == Project::momentum)
-        {
-            ws.momentum.build(ws.mass, ws.v);
-            projectMomentum(ws, w, tile, x, first, count, pass.affine);
-            return;
-        }
-        if (!pass.strain)
-        {
-            transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
-            for (int k = 0; k < stressSize<dim>; ++k)
-                transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
-        }
-        if (pass.addsStress)
-            addStressOfForces(ws, tile, x, first, count, pass);
-        ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
-        projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
-        if (pass.addsForce)
-            addForces(ws, w, tile, x, first, count, dt, pass);
-        lap(ws, &PassTimes::toGrid);
-    });
+    withWeights(
+        ws, x, [&](auto& w) __attribute__((always_inline)) {
+            const bool reached = w.locate(tile.window);
+            lap(ws, &PassTimes::weights);
+            ws.sums.stray = ws.sums.stray || !reached;
+            if (ws.sums.stray)
+                return;
+            if (pass.then == Project::momentum)
+            {
+                ws.momentum.build(ws.mass, ws.v);
+                projectMomentum(ws, w, tile, x, first, count, pass.affine);
+                return;
+            }
+            if (!pass.strain)
+            {
+                transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
+                for (int k = 0; k < stressSize<dim>; ++k)
+                    transfer::loadLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
+            }
+            if (pass.addsStress)
+                addStressOfForces(ws, tile, x, first, count, pass);
+            ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
+            projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
+            if (pass.addsForce)
+                addForces(ws, w, tile, x, first, count, dt, pass);
+            lap(ws, &PassTimes::toGrid);
+        });
 }
 
 /// The columns a pass reads, in about the order it reads them.

@@ -58,7 +58,8 @@ double residual(const state::Ledger& l, double strainEnergy)
            (l.staggering - l.initialStaggering) - (l.kineticEnergy - l.initialKineticEnergy) -
            (strainEnergy - l.initialStrainEnergy) - l.plasticDissipation - l.frictionDissipation -
            l.dampingDissipation - l.absorbedEnergy - l.wallLoss - l.splitMergeLoss - l.transferLoss - l.relaxationLoss -
-           l.averagingLoss - l.viscosityLoss - l.bulkViscosityLoss - l.gapWork - l.restLoss - l.contactFriction - l.contactLoss;
+           l.averagingLoss - l.viscosityLoss - l.bulkViscosityLoss - l.gapWork - l.restLoss - l.contactFriction -
+           l.contactLoss;
 }
 
 const std::vector<std::string>& historyColumns()

@@ -7,7 +7,8 @@
 ///     dampingDissipation   - sum J . (v_i + v*)/2, J the impulse of damping (nodal/damping.hpp)
 ///     wallLoss             sum m (v_i - v*)^2/2 where walls hold nodes: impact. Other forces on such nodes work on v*
 ///     contactFriction      - sum J_t . v* between bodies (nodal/contact.hpp); contactLoss is the rest of what they do
-///                          to each other: m* (difference of v_i along the normal)^2/2 of an impact, m* the reduced mass
+///                          to each other: m* (difference of v_i along the normal)^2/2 of an impact, m* the reduced
+///                          mass
 ///     transferLoss         (change of grid KE) - (change of particle KE), and the work of stress on what projections
 ///                          change in the velocities it meets (ExplicitStepper::bookStressWork): v_i and v* in the
 ///                          forces, w in the strains

@@ -265,8 +265,8 @@ class ExplicitStepper : public Stepper
     [[gnu::noinline]] void blendVelocity(Workspace& ws, double dt, const Pass& pass) const;
     [[gnu::noinline]] void advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass);
     template <class W>
-    void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count,
-                                            double dt, bool moves);
+    void projectBodyForce(Workspace& ws, const W& w, const state::Tile& tile, Index first, int count, double dt,
+                          bool moves);
     template <class W>
     void projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x, Index first, int count,
                          bool withAffine);
@@ -306,22 +306,22 @@ class ExplicitStepper : public Stepper
     void prepareRest();
     void choosePlaces();
     bool isDriven(const state::Tile& tile) const;
+    bool disturbsEverywhere() const;
     void lookForRest();
+    void fallAsleep();
+    double asleep() const { return double(scene_.rest->looks + 1); } ///< quietLooks of what sleeps
     void layToRest();
-    double fastestOf(const state::Tile& tile) const;
     double disturbance(const state::Tile& tile, const std::vector<char>& solved);
     std::vector<Index> wake(const std::vector<char>& solved);
-    void bookResting(const std::vector<Index>& blocks);
-    void bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha);
+    bool restingMass(const nodal::NodeRow<dim>& row, const state::Block& block, double* mass);
+    void holdResting(const std::vector<Index>& blocks);
+    void holdStrainVelocities();
 
     void placeActors(double dt);
     void reportActors(double dt);
     double actorSpeed() const;
     /// Is anything prescribed that changes with time?
-    bool driven() const
-    {
-        return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
-    }
+    bool driven() const;
     /// Do walls or bodies decide on contact?
     bool touches() const { return !walls_.empty() || !bodies_.empty(); }
     bool bounded() const { return touches() || !absorbing_.empty(); }
@@ -346,7 +346,7 @@ class ExplicitStepper : public Stepper
     List<nodal::BodyContact<dim>> bodies_;
     List<nodal::AbsorbingBoundary<dim>> absorbing_;
     Maybe wallsMove_ = false;
-    Maybe bounded_ = false; ///< bounded(), asked for every row of nodes
+    Maybe bounded_ = false;                             ///< bounded(), asked for every row of nodes
     int actors_ = 0;                                    ///< moving walls and rigid bodies
     std::vector<nodal::ActorSums> actorSums_;           ///< actors_ a block
     std::vector<std::vector<nodal::HeldRow>> heldRows_; ///< nodes that bodies hold, by block
@@ -388,10 +388,10 @@ class ExplicitStepper : public Stepper
     bool anyHistory_ = false;                   ///< is there a material whose law usesHistory()?
     bool anyHyperelastic_ = false;              ///< is there a material whose stress is a function of F?
     bool treated_ = false;
-    bool anyPlastic_ = false;                   ///< is there a material that can yield?
-    bool arranged_ = false;                     ///< tiles belong to the particles as they stand
-    bool projected_ = false;                    ///< windows hold the first projection of the coming step
-    bool stray_ = false;                        ///< the last projection left particles out
+    bool anyPlastic_ = false; ///< is there a material that can yield?
+    bool arranged_ = false;   ///< tiles belong to the particles as they stand
+    bool projected_ = false;  ///< windows hold the first projection of the coming step
+    bool stray_ = false;      ///< the last projection left particles out
     StepReport report_;
     PassTimes times_;            ///< of the parts with a clock of their own
     PassTimes sampled_;          ///< of the parts of particle passes, in the steps that were sampled

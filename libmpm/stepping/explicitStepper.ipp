@@ -2,8 +2,8 @@
 #pragma once
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "stepping/bulkViscosity.ipp"
 #include "stepping/books.ipp"
+#include "stepping/bulkViscosity.ipp"
 #include "stepping/chunkWork.ipp"
 #include "stepping/contactWork.ipp"
 #include "stepping/lawWork.ipp"
@@ -100,6 +100,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         particlePass(dt, {.velocity = true, .reproject = true});
         moveSurfaces(dt);
         strainVelocities(dt, true);
+        if (rests())
+            holdStrainVelocities();
         strainPass(dt, 1 + dim, true);
         break;
     case StressUpdate::USL:
@@ -117,6 +119,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);
+        if (rests())
+            holdStrainVelocities();
         strainPass(dt, 1 + dim, false);
         if (conjugate())
             projectAgain(Project::forces);
@@ -220,7 +224,7 @@ void ExplicitStepper<dim, Shape>::buildTiles(bool look)
     if (rests())
     {
         if (look)
-            lookForRest();
+            fallAsleep();
         layToRest();
     }
     if (scene_.treatment.any())

@@ -50,8 +50,8 @@ Finding Monitor::look(const state::State& state, const StepReport& report, const
 Finding Monitor::energy(const state::Ledger& l, const StepReport& report)
 {
     const double work = l.gravityWork + l.tractionWork + l.bodyForceWork + l.motionWork + l.finiteStrainWork;
-    const double dissipated = l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.absorbedEnergy +
-                              l.splitMergeLoss;
+    const double dissipated =
+        l.plasticDissipation + l.frictionDissipation + l.dampingDissipation + l.absorbedEnergy + l.splitMergeLoss;
     const double start = l.initialKineticEnergy + l.initialStrainEnergy;
     const double used = l.kineticEnergy + report.strainEnergy + dissipated;
     const double nowhere = used - start - work;

@@ -153,6 +153,12 @@ void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
             wall.pushAgain(row);
 }
 
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::driven() const
+{
+    return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
+}
+
 /// (m, p, f) -> (v_i, u) by forces, body effects and walls.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
@@ -197,10 +203,16 @@ void ExplicitStepper<dim, Shape>::solveNodes()
     work_.ofForcesBefore = work_.ofForces = 0;
     report_.lightestNode = std::numeric_limits<double>::infinity();
     report_.unbalancedForce = report_.appliedForce = report_.nodalKineticEnergy = 0;
+    const bool look = rests() && state_.step % scene_.sortInterval == 0;
     if (report_.resting == 0)
-        return solveNodes(reached_);
+    {
+        solveNodes(reached_);
+        if (look)
+            lookForRest();
+        return;
+    }
     std::vector<Index> blocks = reached_;
-    if (state_.step % scene_.sortInterval == 0 || !tractions_.empty() || driven())
+    if (look || disturbsEverywhere())
     {
         blocks.resize(grid_.blocks().size());
         std::iota(blocks.begin(), blocks.end(), Index(0));
@@ -214,7 +226,9 @@ void ExplicitStepper<dim, Shape>::solveNodes()
             solved[std::size_t(b)] = 1;
         all.insert(all.end(), blocks.begin(), blocks.end());
     }
-    bookResting(all);
+    if (look)
+        lookForRest();
+    holdResting(all);
 }
 
 template <int dim, class Shape>

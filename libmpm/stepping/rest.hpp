@@ -12,10 +12,10 @@
 ///
 /// A plane wave of strain eps carries the velocity eps c_p and the stress eps M, M = rho c_p^2 (the material with the
 /// slowest wave counts).
-///     falls asleep   at a look, every sortInterval steps, when all its particles were slower than eps c_p/4 at `looks`
-///                    looks in a row; in the first step of a run, when none moves at all
+///     falls asleep   when at `looks` looks in a row, one every sortInterval steps, no node its particles reach showed
+///                    half of what wakes; in the first step of a run, when no particle moves at all
 ///     wakes          in the very step in which at a node its particles reach
-///                        |v*| > eps c_p   or   |a| h > eps c_p^2,   a the acceleration of the nodal equation:
+///                        |v*| > eps c_p   or   |a| h > eps c_p^2,   v* and a of the nodal equation:
 ///                    a wave stronger than eps arrives, or a stress of more than eps M is out of balance over a cell.
 ///                    Tiles beside a tile that wakes are judged in the same step, with the nodes it brings with it
 ///     is judged      at nodes it shares with tiles awake in every step, at all its nodes at every look, and in every
@@ -23,6 +23,8 @@
 ///     never sleeps   within two cells of something that moves as prescribed, nor while gravity grows
 /// Tiles that share nodes with another body (nodal/contact.hpp) stay awake.
 ///
+/// Nodes that sleeping particles share with others are held: what is awake meets a rigid body there, so that no strain is
+/// lost to the border, however often soil falls asleep and wakes.
 /// So stresses out of balance inside what sleeps stay below eps M, and StepReport::restingStress is the largest one
 /// left alone in the last step. tolerance = 0 would let sleep only what balances to the last bit; it is refused.
 ///
@@ -39,6 +41,6 @@ struct Rest
     double tolerance = 1e-6; ///< eps [-]
     Index looks = 5;
 
-    static constexpr double quietShare = 0.25; ///< of eps c_p: slower is quiet
+    static constexpr double quietShare = 0.5; ///< of what wakes: less is quiet
 };
 } // namespace mpm::stepping

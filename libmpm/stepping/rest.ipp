@@ -54,21 +54,6 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
             reached_.push_back(Index(b));
 }
 
-/// Largest speed of a tile's particles, squared.
-template <int dim, class Shape>
-double ExplicitStepper<dim, Shape>::fastestOf(const state::Tile& tile) const
-{
-    double fastest = 0;
-    for (Index i = tile.first; i < tile.first + tile.count; ++i)
-    {
-        double vv = 0;
-        for (int a = 0; a < dim; ++a)
-            vv += double(state_.particles.v[a][std::size_t(i)]) * double(state_.particles.v[a][std::size_t(i)]);
-        fastest = vv > fastest || vv != vv ? vv : fastest;
-    }
-    return fastest;
-}
-
 /// Is a wall or gravity about to disturb a tile by itself?
 template <int dim, class Shape>
 bool ExplicitStepper<dim, Shape>::isDriven(const state::Tile& tile) const
@@ -98,25 +83,55 @@ bool ExplicitStepper<dim, Shape>::isDriven(const state::Tile& tile) const
     return scene_.gravityRamp && state_.time < scene_.gravityRamp->duration;
 }
 
-/// Tiles quiet at `looks` looks in a row fall asleep; in the first step those that do not move.
+/// May nodes that no tile awake reaches be disturbed in this very step? Walls and bodies keep awake what is near them.
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::disturbsEverywhere() const
+{
+    bool incoming = false;
+    for (const auto& plane : scene_.absorbing)
+        incoming = incoming || plane.incoming;
+    return incoming || !tractions_.empty() || (scene_.gravityRamp && state_.time < scene_.gravityRamp->duration);
+}
+
+/// In solved nodes of a step in which the particles are sorted: which of the tiles awake are quiet?
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::lookForRest()
 {
-    auto& quiet = state_.particles.quietLooks;
-    const double slow = Rest::quietShare * restSpeed_;
-    for (const auto& tile : grid_.tiles())
+    const std::vector<char> solved(grid_.blocks().size(), 1);
+    for (const Index t : awake_)
     {
-        const double vv = fastestOf(tile);
-        const bool first = state_.step == 0 && vv == 0, driven = isDriven(tile);
+        const auto& tile = grid_.tiles()[std::size_t(t)];
+        const bool quiet = !isDriven(tile) && disturbance(tile, solved) <= Rest::quietShare;
         for (Index i = tile.first; i < tile.first + tile.count; ++i)
         {
-            double& looks = quiet[std::size_t(i)];
-            looks = driven ? 0 : first ? double(scene_.rest->looks) : vv <= slow * slow ? looks + 1 : 0;
+            double& looks = state_.particles.quietLooks[std::size_t(i)];
+            looks = quiet ? std::min(looks + 1, double(scene_.rest->looks)) : 0;
         }
     }
 }
 
-/// Tiles just cut: those whose particles have all been quiet long enough are laid to rest.
+/// Tiles just sorted fall asleep that were quiet at the last looks; in the first step those whose particles do not
+/// move.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::fallAsleep()
+{
+    auto& p = state_.particles;
+    for (const auto& tile : grid_.tiles())
+    {
+        bool quiet = true;
+        for (Index i = tile.first; i < tile.first + tile.count && quiet; ++i)
+        {
+            double vv = 0;
+            for (int a = 0; a < dim; ++a)
+                vv += std::abs(double(p.v[a][std::size_t(i)]));
+            quiet = p.quietLooks[std::size_t(i)] >= double(scene_.rest->looks) || (state_.step == 0 && vv == 0);
+        }
+        if (quiet && !isDriven(tile))
+            std::fill_n(p.quietLooks.begin() + tile.first, tile.count, asleep());
+    }
+}
+
+/// Tiles just cut: those whose particles all sleep are at rest.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::layToRest()
 {
@@ -129,7 +144,7 @@ void ExplicitStepper<dim, Shape>::layToRest()
         if (prescribed(tile.body) || (contact_ && std::any_of(tile.blocks.begin(), tile.blocks.end(), touched)))
             continue;
         const auto* looks = p.quietLooks.data() + tile.first;
-        if (!std::all_of(looks, looks + tile.count, [&](double n) { return n >= double(scene_.rest->looks); }))
+        if (!std::all_of(looks, looks + tile.count, [&](double n) { return n == asleep(); }))
             continue;
         grid_.setResting(Index(t), true);
         double taken = 0;
@@ -226,30 +241,12 @@ double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const s
     return std::sqrt(largest);
 }
 
-/// Momentum that comes from, or goes to, what sleeps: its share of the acceleration of solved nodes and of what PIC
-/// makes of v_i; and the internal forces at solved nodes, which are those at nodes not solved with the sign turned.
+/// mass[i - row.begin] = what sleeps of the mass of node i. Returns whether anything does.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::bookResting(const std::vector<Index>& blocks)
+bool ExplicitStepper<dim, Shape>::restingMass(const nodal::NodeRow<dim>& row, const state::Block& block,
+                                              double* mass)
 {
-    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
-    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) { bookResting(row, block, alpha); });
-    for (const auto& block : blockSums_)
-        for (int a = 0; a < dim; ++a)
-            state_.ledger.restImpulse[a] += block.restImpulse[a];
-    state_.ledger.restingSteps += report_.resting;
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::bookResting(const nodal::NodeRow<dim>& row, const state::Block& block, double alpha)
-{
-    Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
-    sumWindows(row, block, sum);
-    for (Index i = row.begin; i < row.end; ++i)
-    {
-        const Record all = transfer::finishNode<dim>(sum[i - row.begin]);
-        for (int a = 0; a < dim; ++a)
-            row.sums->restImpulse[a] += kick_ * all[1 + dim + a];
-    }
+    bool any = false;
     for (const auto& overlap : block.tiles)
     {
         const auto& tile = grid_.tiles()[std::size_t(overlap.tile)];
@@ -259,11 +256,63 @@ void ExplicitStepper<dim, Shape>::bookResting(const nodal::NodeRow<dim>& row, co
             continue;
         const Record* own = grid_.template window<Record>(tile) + box.offset(begin, row.j, row.k);
         for (Index i = begin; i < end; ++i)
+            mass[i - row.begin] += own[i - begin][0];
+        any = true;
+    }
+    return any;
+}
+
+/// Holds the solved nodes that sleeping particles have mass at, and books the momentum this takes: of nodes held, of
+/// what sleeps at the others, and the internal forces at solved nodes, which are those at nodes not solved with the
+/// sign turned.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::holdResting(const std::vector<Index>& blocks)
+{
+    const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
+    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
+        double mass[1 << state::TileLayout::bitsOf(dim)] = {};
+        sumWindows(row, block, sum);
+        restingMass(row, block, mass);
+        for (Index i = row.begin; i < row.end; ++i)
+        {
+            Record& r = row.node[i];
+            const Record projected = transfer::finishNode<dim>(sum[i - row.begin]);
+            const double resting = mass[i - row.begin];
+            const bool held = resting > smallestMass_;
             for (int a = 0; a < dim; ++a)
             {
-                const double change = kick_ * row.node[i][1 + dim + a];
-                row.sums->restImpulse[a] -= own[i - begin][0] * (change + alpha * (row.node[i][1 + a] - change));
+                const double after = r[1 + a], change = kick_ * r[1 + dim + a];
+                row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
+                                            alpha * resting * (after - change) -
+                                            (held ? (r[0] - resting) * after : 0);
+                if (held)
+                {
+                    r[1 + a] = 0;
+                    r[1 + dim + a] = (change - after) / kick_;
+                }
             }
-    }
+        }
+    });
+    for (const auto& block : blockSums_)
+        for (int a = 0; a < dim; ++a)
+            state_.ledger.restImpulse[a] += block.restImpulse[a];
+    state_.ledger.restingSteps += report_.resting;
+}
+
+/// Nodes that are held do not strain what is awake.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::holdStrainVelocities()
+{
+    if (report_.resting == 0)
+        return;
+    forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
+        double mass[1 << state::TileLayout::bitsOf(dim)] = {};
+        if (!restingMass(row, block, mass))
+            return;
+        for (Index i = row.begin; i < row.end; ++i)
+            for (int a = 0; a < dim && mass[i - row.begin] > smallestMass_; ++a)
+                row.node[i][row.trial + a] = 0;
+    });
 }
 } // namespace mpm::stepping

@@ -114,18 +114,18 @@ struct ActorReport
 /// What the last step saw.
 struct StepReport
 {
-    double smallestJacobian = 1;  ///< min det F
-    double largestSpeed = 0;      ///< max |v_p|, and of walls in motion [m/s]
-    double strainEnergy = 0;      ///< sum V 1/2 sigma : C^-1 : sigma [J]
-    Vector3 momentum{};           ///< sum m v_p [N s]
-    double lightestNode = 0;      ///< smallest mass of a node that carries any [kg]
-    double maxYieldViolation = 0; ///< max f/max(|sigma|, strength) over particles, 0 if none yields
+    double smallestJacobian = 1;     ///< min det F
+    double largestSpeed = 0;         ///< max |v_p|, and of walls in motion [m/s]
+    double strainEnergy = 0;         ///< sum V 1/2 sigma : C^-1 : sigma [J]
+    Vector3 momentum{};              ///< sum m v_p [N s]
+    double lightestNode = 0;         ///< smallest mass of a node that carries any [kg]
+    double maxYieldViolation = 0;    ///< max f/max(|sigma|, strength) over particles, 0 if none yields
     std::vector<ActorReport> actors; ///< moving walls, then rigid bodies
-    Index cappedDomains = 0;      ///< particle domains held at the widest size the shape allows
-    Index resting = 0;            ///< particles that slept through it
-    double restingStress = 0;     ///< largest stress out of balance that left a tile asleep, |a| rho h of a node [Pa]
-    double unbalancedForce = 0;   ///< with localDamping: sum of |net force| over nodes, by components [N]
-    double appliedForce = 0;      ///< with localDamping: the same of the projected forces (all but gravity)
+    Index cappedDomains = 0;         ///< particle domains held at the widest size the shape allows
+    Index resting = 0;               ///< particles that slept through it
+    double restingStress = 0;      ///< largest stress out of balance that left a tile asleep, |a| rho h of a node [Pa]
+    double unbalancedForce = 0;    ///< with localDamping: sum of |net force| over nodes, by components [N]
+    double appliedForce = 0;       ///< with localDamping: the same of the projected forces (all but gravity)
     double nodalKineticEnergy = 0; ///< sum m_i v_i^2/2 as projected from the particles [J]
 };
 
