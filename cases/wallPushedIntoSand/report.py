@@ -130,7 +130,7 @@ def sketch(case):
     axes.plot([0, 1.73], [0, 1], "k--", linewidth=1)
     axes.text(0.55, 0.12, "45° - phi/2 = 30°")
     axes.text(0.45, 0.65, "wedge", ha="center")
-    axes.text(2.2, 0.45, "sand: phi 30°, c = 0\n1600 kg/m³", ha="center")
+    axes.text(1.85, 0.45, "sand: phi 30°, c = 0\n1600 kg/m³", ha="center")
     axes.text(1.5, -0.2, "friction, mu = tan phi", ha="center")
     axes.text(-0.15, 1.3, "smooth wall")
     report.arrow(axes, (2.85, 0), (2.85, 1), "H = 1 m", (-0.25, 0), both=True)

@@ -46,6 +46,14 @@ EFFECTS = [
         Entry("a loading of a state of a run", "gravityLoading", attribute("step", 5)),
         Entry("a loading of no state", "gravityLoading", seeded=False),
     ]),
+    ("Rest", [
+        solve("rest that tolerates nothing", append(SCHEMES, "rest { tolerance 0; }\n")),
+        solve("rest that tolerates a tenth of strain", append(SCHEMES, "rest { tolerance 0.1; }\n")),
+        solve("rest after no looks", append(SCHEMES, "rest { looks 0; }\n")),
+        solve("rest misspelt", append(SCHEMES, "rest { tolerence 1e-6; }\n")),
+        solve("rest with XPIC", write(SCHEMES, "shape uGIMP; transfer XPIC; order 2; rest { tolerance 1e-6; }\n")),
+        solve("rest with a treatment of stresses", append(SCHEMES, "stressTreatment automatic; rest { tolerance 1e-6; }\n")),
+    ]),
     ("Laws that soften, crack or are cones", [
         seed("a limit of tension below nothing", law("mohrCoulomb", "cohesion 1e3; frictionAngle 30; tensionCutOff -1;")),
         seed("a limit of tension as a word", law("druckerPrager", "cohesion 1e3; frictionAngle 30; tensionCutOff none;")),

@@ -54,7 +54,7 @@ SQUARE = ("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Poi
 
 def contact(what, words, change=None):
     """Two materials, and what constant/contactProperties says of them."""
-    return Entry(what, "mpmSolve", both(attribute("materials", ["soil", "plane"]),
+    return Entry(what, "mpmSolve", both(attribute("materials", np.array([b"soil", b"plane"])),
                                         append(MATERIAL, "plane { law linearElastic; density 1000; E 20e6; nu 0.3; }\n"),
                                         write("constant/contactProperties", words + "\n"), *([change] if change else [])))
 
