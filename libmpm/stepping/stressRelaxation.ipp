@@ -9,12 +9,6 @@
 
 namespace mpm::stepping
 {
-template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::relaxes() const
-{
-    return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
-}
-
 /// T sigma - sigma into the particles' correction.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::correctStress()
