@@ -10,6 +10,12 @@
 
 namespace mpm::stepping
 {
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::relaxes() const
+{
+    return scene_.treatment.relaxation && state_.step % scene_.treatment.relaxation->interval == 0;
+}
+
 /// Columns of the state that belong to the treatment; those of another run's go.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::prepareTreatment()

@@ -68,6 +68,12 @@ TEST_CASE("every effect has a neutral value, or says why not")
     }
 }
 
+TEST_CASE("every law of the catalogue of laws is an effect")
+{
+    for (const auto& law : constitutive::lawCatalogue())
+        CHECK(cases::effectNamed(law.name).word == "law " + law.name);
+}
+
 TEST_CASE("an effect that is put in is found, and gone when it is taken out")
 {
     const auto scene = block(2, stepping::StressUpdate::MUSL);
