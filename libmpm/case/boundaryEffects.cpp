@@ -133,7 +133,8 @@ Deed loadDeed(const EffectRun& run)
         square += std::pow(run.state.ledger.tractionImpulse[a] - run.atStart.tractionImpulse[a], 2);
     if (square == 0)
         return {0, "J", "0 N s of load", false};
-    return {work, "J", fmt::format("work {}, impulse {:.4g} kN s of all loads", run.energy(work), std::sqrt(square) / 1e3)};
+    return {work, "J",
+            fmt::format("work {}, impulse {:.4g} kN s of all loads", run.energy(work), std::sqrt(square) / 1e3)};
 }
 
 /// A surface on top of the body: one element a particle of the uppermost row.
@@ -153,7 +154,8 @@ state::SurfacePatch topOf(const state::State& state)
             patch.centre[std::size_t(a)].push_back(p.x[std::size_t(a)][i]);
         for (int k = 0; k < dim - 1; ++k)
             for (int a = 0; a < dim; ++a)
-                patch.edges[std::size_t(k * dim + a)].push_back(a == (k == 0 ? 0 : 2) ? double(p.length0[std::size_t(a)][i]) : 0);
+                patch.edges[std::size_t(k * dim + a)].push_back(
+                    a == (k == 0 ? 0 : 2) ? double(p.length0[std::size_t(a)][i]) : 0);
     }
     return patch;
 }
@@ -162,9 +164,7 @@ Effect loadEffect(const std::string& name, bool pressure, const std::string& hel
 {
     Effect e{.name = name, .family = EffectFamily::boundary, .word = "type " + name, .file = file, .help = help};
     const auto mine = [pressure](const Load& load) { return load.pressure == pressure; };
-    e.uses = [mine](const EffectScene& s) {
-        return std::any_of(s.scene.loads.begin(), s.scene.loads.end(), mine);
-    };
+    e.uses = [mine](const EffectScene& s) { return std::any_of(s.scene.loads.begin(), s.scene.loads.end(), mine); };
     e.without = [mine](EffectScene& s) { std::erase_if(s.scene.loads, mine); };
     e.neutral = [pressure](EffectScene& s) {
         if (s.state.patches.empty())

@@ -22,8 +22,7 @@ double EffectRun::supplied() const
 {
     const auto& l = state.ledger;
     return std::abs(l.gravityWork) + std::abs(l.tractionWork) + std::abs(l.bodyForceWork) + l.motionSupply +
-           l.initialKineticEnergy +
-           l.initialStrainEnergy;
+           l.initialKineticEnergy + l.initialStrainEnergy;
 }
 
 std::string EffectRun::share(double joule) const

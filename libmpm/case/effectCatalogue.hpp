@@ -1,17 +1,18 @@
 #pragma once
 /// Every effect a scene may name, once: what it is called, how a scene names it, how it is taken out of a scene and put
-/// into one, what it keeps, what it did. mpmSolve -effects, the summary of a run, docs/effects.md and the tests of label
-/// `effects` read this list and nothing else.
+/// into one, what it keeps, what it did. mpmSolve -effects, the summary of a run, docs/effects.md and the tests of
+/// label `effects` read this list and nothing else.
 ///
 ///     off      base(scene): the scene without the effect, and without what it takes the place of (other laws, other
 ///              transfers)
-///     neutral  base(scene) with the effect at the value at which it does nothing: mu = 0, cohesion -> infinity, a limit
+///     neutral  base(scene) with the effect at the value at which it does nothing: mu = 0, cohesion -> infinity, a
+///     limit
 ///              no particle reaches. Results are those of base(scene), bit for bit or to round-off for a reason that is
 ///              told (tests/effects/neutralValues.cpp); what it costs is what naming it costs before it acts
 ///
-/// A new effect is one entry in the list of its family (lawEffects.cpp, boundaryEffects.cpp, motionEffects.cpp, contactEffects.cpp,
-/// processEffects.cpp, transferEffects.cpp, treatmentEffects.cpp): copy a neighbour. Tests and tables follow; renew
-/// docs/effects.md by etc/effectsTable.
+/// A new effect is one entry in the list of its family (lawEffects.cpp, boundaryEffects.cpp, motionEffects.cpp,
+/// contactEffects.cpp, processEffects.cpp, transferEffects.cpp, treatmentEffects.cpp): copy a neighbour. Tests and
+/// tables follow; renew docs/effects.md by etc/effectsTable.
 #include "stepping/stepper.hpp"
 
 #include <functional>
@@ -45,10 +46,10 @@ struct EffectScene
 struct EffectRun
 {
     const stepping::Scene& scene;
-    const state::State& state;      ///< at its end
-    const state::Ledger& atStart;   ///< of the run
+    const state::State& state;    ///< at its end
+    const state::Ledger& atStart; ///< of the run
     Index steps = 0;
-    stepping::StepReport report{};  ///< of its last step
+    stepping::StepReport report{}; ///< of its last step
 
     /// Growth of an entry of the ledger in the run.
     template <class T>

@@ -179,9 +179,8 @@ EffectPrices priceEffects(const stepping::Scene& scene, const state::State& stat
     catch (const StepError& error) // the scene itself cannot be stepped
     {
         for (const Effect* effect : wanted)
-            out.list.push_back({.effect = effect,
-                                .used = effect->uses(part),
-                                .fault = std::string("a step fails: ") + error.what()});
+            out.list.push_back(
+                {.effect = effect, .used = effect->uses(part), .fault = std::string("a step fails: ") + error.what()});
     }
     out.seconds = now() - begin;
     return out;

@@ -43,10 +43,10 @@ struct EffectPrices
 /// How much is measured.
 struct PriceLimits
 {
-    double seconds = 4;     ///< about, on the wall
-    bool offToo = true;     ///< also effects that the scene does not use
+    double seconds = 4;      ///< about, on the wall
+    bool offToo = true;      ///< also effects that the scene does not use
     Index particles = 50000; ///< at most, of a state
-    int rounds = 15;        ///< at most; at least fewestRounds
+    int rounds = 15;         ///< at most; at least fewestRounds
     int fewestRounds = 5;
 };
 

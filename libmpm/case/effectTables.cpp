@@ -69,9 +69,9 @@ std::string listOf(EffectFamily family)
     {
         if (e.family != family)
             continue;
-        const std::string neutral =
-            e.neutralText.empty() ? "none: " + e.differs
-                                  : e.neutralText + (e.differs.empty() ? "" : "; to round-off: " + e.differs);
+        const std::string neutral = e.neutralText.empty()
+                                        ? "none: " + e.differs
+                                        : e.neutralText + (e.differs.empty() ? "" : "; to round-off: " + e.differs);
         std::string fields;
         for (const auto& field : e.fields)
             fields += (fields.empty() ? "`" : ", `") + field + "`";
@@ -131,8 +131,9 @@ std::string costText(const Effect& e, const std::optional<EffectPrices>& prices,
         return boundText(e, passes, stepSeconds);
     for (const auto& price : prices->list)
         if (price.effect == &e && price.fault.empty())
-            return price.share < price.spread ? fmt::format("< {:.1f}", 100 * (std::max(0.0, price.share) + price.spread))
-                                              : percent(price.share);
+            return price.share < price.spread
+                       ? fmt::format("< {:.1f}", 100 * (std::max(0.0, price.share) + price.spread))
+                       : percent(price.share);
     return "-";
 }
 } // namespace

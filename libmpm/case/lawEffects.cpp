@@ -81,27 +81,34 @@ std::vector<Effect> lawEffects()
 {
     const std::string other = "another stress for the same motion: it takes the place of linearElastic";
     std::vector<Effect> effects = {
-        lawEffect("linearElastic", "itself", "", [](const auto& m) { return std::make_shared<LinearElastic>(m); },
-                  elasticDeed),
-        lawEffect("neoHookean", "", other, [](const auto& m) { return std::make_shared<NeoHookean>(m); }, elasticDeed),
-        lawEffect("hencky", "", other, [](const auto& m) { return std::make_shared<Hencky>(m); }, elasticDeed),
-        lawEffect("smallStrain", "", other, [](const auto& m) { return std::make_shared<SmallStrain>(m); },
-                  elasticDeed),
-        lawEffect("vonMises", "yieldStress 1e100", "",
-                  [](const auto& m) { return std::make_shared<VonMises>(m, endless); }, plasticDeed),
-        lawEffect("tresca", "cohesion 1e100", "",
-                  [](const auto& m) {
-                      return std::make_shared<Tresca>(MohrCoulombParameters{.moduli = m, .cohesion = endless});
-                  },
-                  plasticDeed),
-        lawEffect("mohrCoulomb", "cohesion 1e100", "",
-                  [](const auto& m) { return endlessSoil(LinearElastic(m)); }, plasticDeed),
-        lawEffect("druckerPrager", "cohesion 1e100", "",
-                  [](const auto& m) {
-                      return std::make_shared<DruckerPrager>(
-                          DruckerPragerParameters{.moduli = m, .cohesion = endless, .frictionAngle = 30});
-                  },
-                  plasticDeed),
+        lawEffect(
+            "linearElastic", "itself", "", [](const auto& m) { return std::make_shared<LinearElastic>(m); },
+            elasticDeed),
+        lawEffect(
+            "neoHookean", "", other, [](const auto& m) { return std::make_shared<NeoHookean>(m); }, elasticDeed),
+        lawEffect(
+            "hencky", "", other, [](const auto& m) { return std::make_shared<Hencky>(m); }, elasticDeed),
+        lawEffect(
+            "smallStrain", "", other, [](const auto& m) { return std::make_shared<SmallStrain>(m); }, elasticDeed),
+        lawEffect(
+            "vonMises", "yieldStress 1e100", "", [](const auto& m) { return std::make_shared<VonMises>(m, endless); },
+            plasticDeed),
+        lawEffect(
+            "tresca", "cohesion 1e100", "",
+            [](const auto& m) {
+                return std::make_shared<Tresca>(MohrCoulombParameters{.moduli = m, .cohesion = endless});
+            },
+            plasticDeed),
+        lawEffect(
+            "mohrCoulomb", "cohesion 1e100", "", [](const auto& m) { return endlessSoil(LinearElastic(m)); },
+            plasticDeed),
+        lawEffect(
+            "druckerPrager", "cohesion 1e100", "",
+            [](const auto& m) {
+                return std::make_shared<DruckerPrager>(
+                    DruckerPragerParameters{.moduli = m, .cohesion = endless, .frictionAngle = 30});
+            },
+            plasticDeed),
     };
     for (auto& effect : strengthEffects())
         effects.push_back(std::move(effect));

@@ -27,7 +27,8 @@ struct LawExtras
     std::optional<constitutive::Softening> softening;
 };
 LawExtras extrasOf(const constitutive::Law& law);
-/// The same law with others; those it cannot have are left out. Of mohrCoulomb, tresca, druckerPrager and vonMises only.
+/// The same law with others; those it cannot have are left out. Of mohrCoulomb, tresca, druckerPrager and vonMises
+/// only.
 LawPointer withExtras(const constitutive::Law& law, const LawExtras& extras, double cellSize);
 
 /// change(extras) for all materials of a scene.

@@ -29,11 +29,8 @@ void makeEndlessSoil(EffectScene& s)
 
 Effect strengthEffect(const std::string& name, const std::string& word, const std::string& help)
 {
-    Effect e{.name = name,
-             .family = EffectFamily::law,
-             .word = word,
-             .file = "constant/materialProperties",
-             .help = help};
+    Effect e{
+        .name = name, .family = EffectFamily::law, .word = word, .file = "constant/materialProperties", .help = help};
     e.base = makeEndlessSoil;
     e.pass = &stepping::PassTimes::law;
     e.did = [](const EffectRun&) -> Deed { return {}; };
@@ -54,7 +51,9 @@ Effect substepEffect()
 Effect tensionCutOffEffect()
 {
     Effect e = strengthEffect("tensionCutOff", "tensionCutOff 0", "a limit of tension below that of the law");
-    e.uses = [](const EffectScene& s) { return anyExtras(s, [](const auto& x) { return std::isfinite(x.tensionCutOff); }); };
+    e.uses = [](const EffectScene& s) {
+        return anyExtras(s, [](const auto& x) { return std::isfinite(x.tensionCutOff); });
+    };
     e.without = [](EffectScene& s) {
         changeExtras(s, [](auto& x) { x.tensionCutOff = std::numeric_limits<double>::infinity(); });
     };

@@ -151,7 +151,7 @@ Effect tensionGapEffect()
 
 std::vector<Effect> treatmentEffects()
 {
-    return {averagingEffect(), elasticPartEffect(), viscosityEffect(),
-            relaxationEffect(), flowMemoryEffect(), tensionGapEffect()};
+    return {averagingEffect(),  elasticPartEffect(), viscosityEffect(),
+            relaxationEffect(), flowMemoryEffect(),  tensionGapEffect()};
 }
 } // namespace mpm::cases

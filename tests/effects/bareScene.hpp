@@ -62,12 +62,10 @@ struct NoList
 {
     template <class... A>
     void push_back(A&&...)
-    {
-    }
+    {}
     template <class... A>
     void emplace_back(A&&...)
-    {
-    }
+    {}
     static constexpr T* begin() { return nullptr; }
     static constexpr T* end() { return nullptr; }
     static constexpr std::size_t size() { return 0; }

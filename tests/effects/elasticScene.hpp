@@ -12,8 +12,8 @@ using namespace mpm;
 /// 40 x 50 particles, two a cell along each axis, off the nodes.
 inline state::State block()
 {
-    state::State s = scenes::seedBlock(
-        {.corner = {3.1, 3.3, 0}, .n = {40, 50, 1}, .spacing = 0.5, .h = 1, .cells = {27, 32, 1}});
+    state::State s =
+        scenes::seedBlock({.corner = {3.1, 3.3, 0}, .n = {40, 50, 1}, .spacing = 0.5, .h = 1, .cells = {27, 32, 1}});
     auto& p = s.particles;
     for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
     {

@@ -14,8 +14,8 @@ namespace
 {
 using namespace effects;
 
-const std::set<std::string> always = {"position", "velocity", "stress",  "deformationGradient",
-                                      "length0",  "mass",     "volume0", "volume",
+const std::set<std::string> always = {"position", "velocity", "stress",   "deformationGradient",
+                                      "length0",  "mass",     "volume0",  "volume",
                                       "id",       "sortKey",  "material", "generation"};
 
 struct Kept

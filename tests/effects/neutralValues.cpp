@@ -1,5 +1,5 @@
-// Every effect at its neutral value gives what its absence gives: the same bits, or the same to round-off for the reason
-// the catalogue tells. Effects without a neutral value say why, and do change something.
+// Every effect at its neutral value gives what its absence gives: the same bits, or the same to round-off for the
+// reason the catalogue tells. Effects without a neutral value say why, and do change something.
 #include "effects/effectScenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -38,8 +38,7 @@ double difference(const state::Particles& a, const state::Particles& b)
 
 void compare(const Effect& effect, const EffectScene& scene)
 {
-    INFO(effect.name << " in " << scene.state.particles.dim << " dimensions, "
-                     << stepping::methodText(scene.scene));
+    INFO(effect.name << " in " << scene.state.particles.dim << " dimensions, " << stepping::methodText(scene.scene));
     const auto absent = run(cases::withoutEffect(effect, scene), 45);
     const auto neutral = run(cases::withNeutral(effect, scene), 45);
     REQUIRE(absent.particles.size() == neutral.particles.size());

@@ -132,7 +132,8 @@ TEST_CASE("effects that never acted are named")
     const auto end = run(s, 25);
     const cases::EffectRun run{s.scene, end, start, 25};
     const auto idle = idleEffects(run, cases::effectsOf(s));
-    CHECK(idle == std::vector<std::string>{"friction: 0 contacts in 25 steps", "splitting: 0 particles split in 25 steps"});
+    CHECK(idle ==
+          std::vector<std::string>{"friction: 0 contacts in 25 steps", "splitting: 0 particles split in 25 steps"});
 }
 
 TEST_CASE("effects tell how much they did")
