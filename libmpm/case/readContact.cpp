@@ -38,8 +38,8 @@ nodal::ContactProperties readContact(const Dictionary& d, const std::vector<cons
     nodal::ContactProperties out;
     const auto names = namesOf(materials);
     out.bodyOf.assign(materials.size(), -1);
-    for (const auto& group : d.get<std::vector<WordGroup>>(
-             {"bodies", "materials that move apart; those not named are one body more"}))
+    for (const auto& group :
+         d.get<std::vector<WordGroup>>({"bodies", "materials that move apart; those not named are one body more"}))
     {
         for (const auto& word : group.words)
         {

@@ -13,6 +13,5 @@ nodal::ContactProperties readContact(const dictionary::Dictionary& contactProper
 /// Motions of materials of law rigid (constitutive/rigid.hpp), each of which is a body of its own; `contact` is null
 /// where there is no constant/contactProperties, which is an error if a material is rigid.
 void readRigidMotions(const dictionary::Dictionary& materialProperties,
-                      const std::vector<constitutive::Material>& materials, int dim,
-                      nodal::ContactProperties* contact);
+                      const std::vector<constitutive::Material>& materials, int dim, nodal::ContactProperties* contact);
 } // namespace mpm::cases

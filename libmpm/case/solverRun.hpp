@@ -116,7 +116,7 @@ class SolverRun
     std::string writingName_;
     double firstTime_ = 0, timeBefore_ = 0, peakKinetic_ = 0, peakTime_ = 0;
     double stepSeconds_ = 0;
-    state::Ledger firstLedger_; ///< of the state the run began with
+    state::Ledger firstLedger_;                 ///< of the state the run began with
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
     Index firstStep_ = 0, writtenStep_ = 0, firstRestingSteps_ = 0;
     Index limitStep_ = 0; ///< the step limit_ was made anew at

@@ -129,8 +129,9 @@ void SolverRun::banner() const
     for (const auto& wall : s.walls)
         line("wall", wall.name + ": " + wallText(wall, state_.grid) + (wall.separation ? ", may separate" : ", holds"));
     if (s.contact)
-        line("contact", fmt::format("between {}, mu {}{}", joinWords(s.contact->bodies, " and "), muText(*s.contact),
-                                    s.contact->detection == nodal::ContactDetection::nodes ? ", felt at shared nodes" : ""));
+        line("contact",
+             fmt::format("between {}, mu {}{}", joinWords(s.contact->bodies, " and "), muText(*s.contact),
+                         s.contact->detection == nodal::ContactDetection::nodes ? ", felt at shared nodes" : ""));
     for (const auto& plane : s.absorbing)
         line("absorbing", fmt::format("{} at {} = {:g} m: {:.4g} and {:.4g} 1/s along and across its normal{}",
                                       plane.name, axisNames[std::size_t(plane.axis)],

@@ -17,7 +17,8 @@
 /// (de Borst, Crisfield, Remmers & Verhoosel, "Nonlinear Finite Element Analysis of Solids and Structures", 2nd ed.
 /// 2012, chapter 7, has returns to Rankine's and Mohr-Coulomb's planes; candidates and their order are derived here.) A
 /// limit at or above the apex of a cone never acts and is none. Where it acts the flow rule has a solution for psi = 0
-/// too, so no volume is dropped. What tension opens does not close: torn and pushed together in turn, soil grows. Proven against all subsets of the nine planes in tests/unit/tensionCutOff.cpp.
+/// too, so no volume is dropped. What tension opens does not close: torn and pushed together in turn, soil grows.
+/// Proven against all subsets of the nine planes in tests/unit/tensionCutOff.cpp.
 #include "constitutive/mohrCoulombReturn.hpp"
 
 #include <utility>

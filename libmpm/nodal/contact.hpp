@@ -24,9 +24,9 @@
 /// reason): pairs in contact keep the normal difference of v*, those that stick all of it, and others do not approach
 /// by more than their gap.
 ///
-/// A rigid body (constitutive/rigid.hpp) counts as an infinite mass. Its nodes move from x_i to where the pose at the end
-/// of the step takes them, so its particles do; what that takes, J = m (v* - v_i) less all other impulses, is booked as
-/// motionWork J.(v_i + v*)/2, and among the impulses of walls.
+/// A rigid body (constitutive/rigid.hpp) counts as an infinite mass. Its nodes move from x_i to where the pose at the
+/// end of the step takes them, so its particles do; what that takes, J = m (v* - v_i) less all other impulses, is
+/// booked as motionWork J.(v_i + v*)/2, and among the impulses of walls.
 ///
 /// Energy: contactFriction = - sum J_t . v*, never negative, and contactLoss, the rest of the work of both impulses:
 /// m* ((v_i,1 - v_i,2).n)^2/2 of an impact, shared with the work of forces as for walls (nodeRow.hpp).
@@ -103,7 +103,7 @@ class Contact
     /// Two bodies at a node.
     struct Pair
     {
-        std::array<Index, 2> place{};      ///< of their nodes
+        std::array<Index, 2> place{}; ///< of their nodes
         std::array<bool, 2> rigid{};
         std::array<std::size_t, 2> side{}; ///< their blocks among those of the box
         Index node = 0;                    ///< within the box

@@ -16,9 +16,9 @@ struct Contact<dim>::Clouds
         Index particle;
         Vector3 x; ///< moved by whole periods to where the box is
     };
-    state::NodeBox range;         ///< of the box's nodes
-    std::vector<int> ofNode;      ///< number of a node among those that several bodies carry, -1: it is none
-    std::array<Index, 3> low{}, high{}; ///< of these
+    state::NodeBox range;                ///< of the box's nodes
+    std::vector<int> ofNode;             ///< number of a node among those that several bodies carry, -1: it is none
+    std::array<Index, 3> low{}, high{};  ///< of these
     std::vector<std::vector<Seen>> seen; ///< by number and body of the box
     std::size_t bodies = 0;
 };
@@ -183,7 +183,8 @@ bool Contact<dim>::locate(const state::Particles& p, const Clouds& clouds, doubl
 {
     std::vector<Vector3> points[2];
     Vector3 middle[2]{};
-    const auto cloud = [&](int s) -> const auto& {
+    const auto cloud = [&](int s) -> const auto&
+    {
         return clouds.seen[std::size_t(clouds.ofNode[std::size_t(pair.node)]) * clouds.bodies + pair.side[s]];
     };
     for (int s = 0; s < 2; ++s)

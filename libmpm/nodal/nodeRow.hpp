@@ -36,20 +36,20 @@ struct HeldRow; // nodal/bodyContact.hpp
 /// Energies and impulses of one step, summed over nodes. Per metre in 2D.
 struct NodeSums
 {
-    double kineticBefore = 0;  ///< sum m v_i^2/2 [J]
-    double kineticAfter = 0;  ///< sum m v*^2/2 [J]
-    double gravityWork = 0;  ///< sum dt m b . (v_i + v*)/2 [J]
-    double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2 [J]
-    double frictionLoss = 0;  ///< - sum J_t . v* over friction walls [J]
-    double absorbed = 0;  ///< - sum J . ((v_i + v*)/2 - V) of absorbing boundaries [J]
-    double dampingLoss = 0;  ///< - sum J . (v_i + v*)/2 of damping [J]
-    double forceWorkBefore = 0;  ///< sum dt f . v_i over the projected forces [J]
-    double forceWork = 0;  ///< sum dt f . v* over the projected forces [J]
-    double wallLoss = 0;  ///< sum m (v_i - v*)^2/2 where walls hold [J]
-    double motionWork = 0;  ///< sum J . V of impulses J by walls that move at V [J]
-    double unbalancedForce = 0;  ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
-    double appliedForce = 0;  ///< sum |f| by components over the projected forces [N]; the same
-    Index contacts = 0;  ///< nodes at which a friction wall pressed
+    double kineticBefore = 0;   ///< sum m v_i^2/2 [J]
+    double kineticAfter = 0;    ///< sum m v*^2/2 [J]
+    double gravityWork = 0;     ///< sum dt m b . (v_i + v*)/2 [J]
+    double tractionWork = 0;    ///< sum dt f_tau . (v_i + v*)/2 [J]
+    double frictionLoss = 0;    ///< - sum J_t . v* over friction walls [J]
+    double absorbed = 0;        ///< - sum J . ((v_i + v*)/2 - V) of absorbing boundaries [J]
+    double dampingLoss = 0;     ///< - sum J . (v_i + v*)/2 of damping [J]
+    double forceWorkBefore = 0; ///< sum dt f . v_i over the projected forces [J]
+    double forceWork = 0;       ///< sum dt f . v* over the projected forces [J]
+    double wallLoss = 0;        ///< sum m (v_i - v*)^2/2 where walls hold [J]
+    double motionWork = 0;      ///< sum J . V of impulses J by walls that move at V [J]
+    double unbalancedForce = 0; ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
+    double appliedForce = 0;    ///< sum |f| by components over the projected forces [N]; the same
+    Index contacts = 0;         ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
     Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]

@@ -14,10 +14,10 @@ struct Ledger
 {
     double plasticDissipation = 0;  ///< sum V sigma_mid : dEps_p
     double frictionDissipation = 0; ///< work of tangential wall forces taken from the body
-    double wallLoss = 0;       ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
+    double wallLoss = 0;        ///< work of all other wall forces taken from the body (impact on walls, fixed walls)
     double contactFriction = 0; ///< work of friction between bodies (nodal/contact.hpp)
     double contactLoss = 0;     ///< work of all else that bodies do to each other: impact
-    double splitMergeLoss = 0; ///< kinetic and elastic energy lost by splitting and merging
+    double splitMergeLoss = 0;  ///< kinetic and elastic energy lost by splitting and merging
     /// Energy lost between particles and grid: kinetic energy in both directions, and the work of internal forces on
     /// the change a projection makes to the velocities strains are taken from (see stepping/energyBudget.hpp).
     double transferLoss = 0;
@@ -31,16 +31,16 @@ struct Ledger
     double averagingLoss = 0; ///< work of forces that averaged strains do not find (treatment/volumetricAveraging.hpp)
     double viscosityLoss = 0; ///< taken by its viscosity
     double bulkViscosityLoss = 0; ///< taken by bulk viscosity (treatment/bulkViscosity.hpp)
-    double gapWork = 0;       ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
-    double restLoss = 0;      ///< kinetic energy of particles that fell asleep (stepping/rest.hpp)
-    double gravityWork = 0;   ///< sum dt m_i b . (v_i + v*)/2
-    double tractionWork = 0;  ///< sum dt f_tau . (v_i + v*)/2
-    double motionWork = 0;    ///< work of moving walls and bodies on the body, positive when supplied
-    double absorbedEnergy = 0; ///< taken by absorbing boundaries
-    double motionSupply = 0;  ///< the same, of steps that supplied any: what has come in, however much went back
-    double apexVolume = 0;    ///< volume dropped by apex returns beyond the flow rule [m^3]
-    double bodyForceWork = 0; ///< work of prescribed body forces other than gravity
-    double kineticEnergy = 0; ///< of the particles, now
+    double gapWork = 0;           ///< energy that open tension gaps hold (treatment/tensionGap.hpp)
+    double restLoss = 0;          ///< kinetic energy of particles that fell asleep (stepping/rest.hpp)
+    double gravityWork = 0;       ///< sum dt m_i b . (v_i + v*)/2
+    double tractionWork = 0;      ///< sum dt f_tau . (v_i + v*)/2
+    double motionWork = 0;        ///< work of moving walls and bodies on the body, positive when supplied
+    double absorbedEnergy = 0;    ///< taken by absorbing boundaries
+    double motionSupply = 0;      ///< the same, of steps that supplied any: what has come in, however much went back
+    double apexVolume = 0;        ///< volume dropped by apex returns beyond the flow rule [m^3]
+    double bodyForceWork = 0;     ///< work of prescribed body forces other than gravity
+    double kineticEnergy = 0;     ///< of the particles, now
     double initialKineticEnergy = 0;
     double initialStrainEnergy = 0;
     Vector3 wallImpulse{};           ///< impulse of the walls on the body [N s]

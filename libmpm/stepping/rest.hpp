@@ -23,10 +23,10 @@
 ///     never sleeps   within two cells of something that moves as prescribed, nor while gravity grows
 /// Tiles that share nodes with another body (nodal/contact.hpp) stay awake.
 ///
-/// Nodes that sleeping particles share with others are held: what is awake meets a rigid body there, so that no strain is
-/// lost to the border, however often soil falls asleep and wakes.
-/// So stresses out of balance inside what sleeps stay below eps M, and StepReport::restingStress is the largest one
-/// left alone in the last step. tolerance = 0 would let sleep only what balances to the last bit; it is refused.
+/// Nodes that sleeping particles share with others are held: what is awake meets a rigid body there, so that no strain
+/// is lost to the border, however often soil falls asleep and wakes. So stresses out of balance inside what sleeps stay
+/// below eps M, and StepReport::restingStress is the largest one left alone in the last step. tolerance = 0 would let
+/// sleep only what balances to the last bit; it is refused.
 ///
 /// What falling asleep takes from velocities, and the share of sleeping particles in the motion of nodes, are booked:
 /// energies as restLoss and (between grid and particles) transferLoss, impulses as restImpulse. Who sleeps follows from

@@ -243,8 +243,7 @@ double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const s
 
 /// mass[i - row.begin] = what sleeps of the mass of node i. Returns whether anything does.
 template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::restingMass(const nodal::NodeRow<dim>& row, const state::Block& block,
-                                              double* mass)
+bool ExplicitStepper<dim, Shape>::restingMass(const nodal::NodeRow<dim>& row, const state::Block& block, double* mass)
 {
     bool any = false;
     for (const auto& overlap : block.tiles)
@@ -284,8 +283,7 @@ void ExplicitStepper<dim, Shape>::holdResting(const std::vector<Index>& blocks)
             {
                 const double after = r[1 + a], change = kick_ * r[1 + dim + a];
                 row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
-                                            alpha * resting * (after - change) -
-                                            (held ? (r[0] - resting) * after : 0);
+                                            alpha * resting * (after - change) - (held ? (r[0] - resting) * after : 0);
                 if (held)
                 {
                     r[1 + a] = 0;

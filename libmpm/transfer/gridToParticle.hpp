@@ -66,8 +66,8 @@ inline void storeColumns(HalfRecord (&r)[8], double* const (&out)[4], int g)
 }
 
 template <class Shape, class Meanwhile>
-[[gnu::noinline]] void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box, Values<2>& out,
-                  Meanwhile&& meanwhile)
+[[gnu::noinline]] void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window,
+                                    const state::NodeBox& box, Values<2>& out, Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0];
@@ -96,8 +96,8 @@ template <class Shape, class Meanwhile>
 }
 
 template <class Shape, class Meanwhile>
-[[gnu::noinline]] void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box, Values<3>& out,
-                  Meanwhile&& meanwhile)
+[[gnu::noinline]] void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box,
+                                    Values<3>& out, Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0], nxy = nx * box.n[1];
@@ -142,8 +142,8 @@ template <class Shape, class Meanwhile>
 
 /// L[a * dim + b] = dw_a/dx_b [1/s].
 template <class Shape, class Meanwhile>
-[[gnu::noinline]] void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
-                    double (&L)[4][lanes], Meanwhile&& meanwhile)
+[[gnu::noinline]] void gatherGradient(const ChunkWeights<2, Shape>& w, const HalfRecord* window,
+                                      const state::NodeBox& box, double (&L)[4][lanes], Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0];
@@ -175,8 +175,8 @@ template <class Shape, class Meanwhile>
 }
 
 template <class Shape, class Meanwhile>
-[[gnu::noinline]] void gatherGradient(const ChunkWeights<3, Shape>& w, const HalfRecord* window, const state::NodeBox& box,
-                    double (&L)[9][lanes], Meanwhile&& meanwhile)
+[[gnu::noinline]] void gatherGradient(const ChunkWeights<3, Shape>& w, const HalfRecord* window,
+                                      const state::NodeBox& box, double (&L)[9][lanes], Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0], nxy = nx * box.n[1];

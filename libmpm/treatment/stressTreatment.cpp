@@ -92,9 +92,10 @@ std::optional<Objection> objection(const StressTreatment& t, const std::vector<c
                          "only laws whose stress is a function of F, which no relaxation can change",
                          "it with laws that carry stress on"};
     if (t.tensionGap && !firstWith(materials, [](const Law& law) { return law.dropsApexVolume(); }))
-        return Objection{"tensionGap", "yes without a law that drops volume at an apex",
-                         "it with mohrCoulomb or druckerPrager, dilationAngle 0 and frictionAngle > 0, without substep and "
-                         "tensionCutOff"};
+        return Objection{
+            "tensionGap", "yes without a law that drops volume at an apex",
+            "it with mohrCoulomb or druckerPrager, dilationAngle 0 and frictionAngle > 0, without substep and "
+            "tensionCutOff"};
     return std::nullopt;
 }
 } // namespace mpm::treatment

@@ -130,5 +130,5 @@ inline double run(state::State& s, const stepping::Scene& scene, int steps, doub
 }
 
 inline const std::vector<stepping::StressUpdate> updates = {stepping::StressUpdate::USF, stepping::StressUpdate::USL,
-                                                           stepping::StressUpdate::MUSL};
+                                                            stepping::StressUpdate::MUSL};
 } // namespace bodies

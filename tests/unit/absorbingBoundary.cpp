@@ -93,7 +93,7 @@ TEST_CASE("pressure and shear waves leave: less than 1 % of the energy comes bac
     const auto closed = scene();
     run(free, closed, Index(8 / c / dt), dt);
     CHECK(energy(free, closed) > 0.98 * start); // it would all be there
-    auto strong = sc; // ((1 - 10)/(1 + 10))^2; a step of four times the dashpot's time
+    auto strong = sc;                           // ((1 - 10)/(1 + 10))^2; a step of four times the dashpot's time
     strong.absorbing[0].normalRate *= 10;
     strong.absorbing[0].shearRate *= 10;
     run(stiff, strong, Index(8 / c / dt), dt);

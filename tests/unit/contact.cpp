@@ -113,7 +113,12 @@ state::State blockOnSlab(double speed, bool swapped = false, bool mirrored = fal
                    .cells = cells,
                    .velocity = {mirrored ? -speed : speed, 0, 0}},
                   swapped ? 1 : 0},
-                 {{.corner = {mirrored ? 4 - 3.0 : 0.5, 0, 0}, .n = {50, 5, 1}, .spacing = 0.05, .h = h, .low = low, .cells = cells},
+                 {{.corner = {mirrored ? 4 - 3.0 : 0.5, 0, 0},
+                   .n = {50, 5, 1},
+                   .spacing = 0.05,
+                   .h = h,
+                   .low = low,
+                   .cells = cells},
                   swapped ? 0 : 1}});
 }
 
@@ -203,8 +208,9 @@ TEST_CASE("materials of one body, and bodies that never meet, move as without co
     CHECK(byId(plain.particles) == byId(one.particles));
     CHECK(one.ledger.contactNodes == 0);
 
-    auto apart = join({{{.corner = {0.3, 0.2, 0}, .n = {16, 8, 1}, .spacing = 0.05, .h = 0.1, .cells = {100, 20, 1}}, 0},
-                       {{.corner = {6.6, 0.2, 0}, .n = {16, 16, 1}, .spacing = 0.05, .h = 0.1, .cells = {100, 20, 1}}, 1}});
+    auto apart =
+        join({{{.corner = {0.3, 0.2, 0}, .n = {16, 8, 1}, .spacing = 0.05, .h = 0.1, .cells = {100, 20, 1}}, 0},
+              {{.corner = {6.6, 0.2, 0}, .n = {16, 16, 1}, .spacing = 0.05, .h = 0.1, .cells = {100, 20, 1}}, 1}});
     auto free = apart;
     scene = slabScene(0.2);
     scene.walls = {{"base", nodal::WallType::roller, 1, -1, 0, 0, true}};
@@ -224,9 +230,27 @@ TEST_CASE("three bodies at a node keep momentum and do not overlap")
     const std::array<Index, 3> cells{30, 20, 1};
     for (const double mu : {0.0, 0.5})
     {
-        auto s = join({{{.corner = {1.1, 0.5, 0}, .n = {8, 8, 1}, .spacing = 0.05, .h = h, .cells = cells, .velocity = {0.1, -0.3, 0}}, 0},
-                       {{.corner = {1.5, 0.5, 0}, .n = {8, 8, 1}, .spacing = 0.05, .h = h, .cells = cells, .velocity = {-0.1, -0.3, 0}}, 1},
-                       {{.corner = {0.9, 0.1, 0}, .n = {24, 8, 1}, .spacing = 0.05, .h = h, .cells = cells, .velocity = {0, 0.2, 0}}, 2}});
+        auto s = join({{{.corner = {1.1, 0.5, 0},
+                         .n = {8, 8, 1},
+                         .spacing = 0.05,
+                         .h = h,
+                         .cells = cells,
+                         .velocity = {0.1, -0.3, 0}},
+                        0},
+                       {{.corner = {1.5, 0.5, 0},
+                         .n = {8, 8, 1},
+                         .spacing = 0.05,
+                         .h = h,
+                         .cells = cells,
+                         .velocity = {-0.1, -0.3, 0}},
+                        1},
+                       {{.corner = {0.9, 0.1, 0},
+                         .n = {24, 8, 1},
+                         .spacing = 0.05,
+                         .h = h,
+                         .cells = cells,
+                         .velocity = {0, 0.2, 0}},
+                        2}});
         const auto scene = sceneOf(3, mu);
         const auto before = stepping::totals(s, scene.materials);
         const double residual = run(s, scene, 300, 5e-4);
@@ -270,6 +294,7 @@ TEST_CASE("a body ten thousand times as light is pushed along, and not through")
                 right = std::min(right, s.particles.x[0][i]);
         return left + 0.05 - right;
     }();
-    CHECK(std::abs(heavy.mass * (heavy.velocity[0] - 0.1) + light.mass * (light.velocity[0] + 0.1)) < 1e-13 * heavy.mass * 0.1);
+    CHECK(std::abs(heavy.mass * (heavy.velocity[0] - 0.1) + light.mass * (light.velocity[0] + 0.1)) <
+          1e-13 * heavy.mass * 0.1);
     CHECK(overlap < 0.5 * 0.1);
 }

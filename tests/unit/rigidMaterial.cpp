@@ -39,7 +39,8 @@ TEST_CASE("a rigid body turns without changing its shape, and no energy is unacc
         auto s = join({{{.corner = {0.2, 0.2, 0}, .n = {4, 4, 1}, .spacing = 0.05, .h = 0.1, .cells = cells}, 0},
                        {{.corner = {2, 0.7, 0}, .n = {16, 8, 1}, .spacing = 0.05, .h = 0.1, .cells = cells}, 1}});
         const auto before = s.particles;
-        const auto scene = rigidScene(0, "velocity (0.2 0 0); rotation { centre (2.4 0.9 0); angularVelocity 1.5; }", update);
+        const auto scene =
+            rigidScene(0, "velocity (0.2 0 0); rotation { centre (2.4 0.9 0); angularVelocity 1.5; }", update);
         const double residual = run(s, scene, 200, 5e-3);
         const auto start = [&](std::int64_t id) {
             for (std::size_t i = 0; i < std::size_t(before.size()); ++i)
@@ -72,8 +73,9 @@ TEST_CASE("a rigid piston throws a bar ahead at twice its speed")
     for (const auto update : updates)
     {
         CAPTURE(int(update));
-        auto s = join({{{.corner = {1.51, 0.8, 0}, .n = {40, 8, 1}, .spacing = 0.025, .h = 0.05, .cells = {80, 40, 1}}, 0},
-                       {{.corner = {1, 0.8, 0}, .n = {20, 8, 1}, .spacing = 0.025, .h = 0.05, .cells = {80, 40, 1}}, 1}});
+        auto s =
+            join({{{.corner = {1.51, 0.8, 0}, .n = {40, 8, 1}, .spacing = 0.025, .h = 0.05, .cells = {80, 40, 1}}, 0},
+                  {{.corner = {1, 0.8, 0}, .n = {20, 8, 1}, .spacing = 0.025, .h = 0.05, .cells = {80, 40, 1}}, 1}});
         const auto scene = rigidScene(0, "velocity (0.1 0 0);", update);
         const double residual = run(s, scene, 400, 5e-4); // they meet at 0.1 s
         const auto bar = motionOf(s, 0), piston = motionOf(s, 1);
