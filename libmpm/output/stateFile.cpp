@@ -9,8 +9,10 @@
 #include "state/particleOrder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace mpm::output
 {
@@ -205,13 +207,17 @@ void writeLedger(Hdf5File& file, const state::Ledger& ledger, int dim)
     });
 }
 
+/// Entries that files of earlier versions lack: those of effects that were not there yet.
+constexpr std::array<std::string_view, 17> lateEntries{
+    "relaxationLoss", "averagingLoss",     "viscosityLoss", "gapWork",      "contactFriction", "contactLoss",
+    "restLoss",       "bulkViscosityLoss", "motionWork",    "motionSupply", "absorbedEnergy",  "restImpulse",
+    "merges",         "restingSteps",      "wakes",         "bodyContacts", "contactNodes"};
+
 void readLedger(const Hdf5File& file, state::Ledger& ledger)
 {
     forEachLedgerEntry(ledger, [&](const std::string& name, auto& value, const std::string&) {
         using Value = std::decay_t<decltype(value)>;
-        const bool late =
-            name == "relaxationLoss" || name == "averagingLoss" || name == "viscosityLoss" || name == "gapWork";
-        if (late && !file.exists("/ledger/" + name))
+        if (std::count(lateEntries.begin(), lateEntries.end(), name) > 0 && !file.exists("/ledger/" + name))
             return; // a file of a version that had none
         if constexpr (std::is_same_v<Value, Vector3>)
         {
