@@ -6,6 +6,7 @@ numbers of their READMEs in wider bands; and whether each README is what its scr
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,7 @@ class Scene(SceneCase):
         super().__init__(__file__, f"{name}, scaled down. Tests: the numbers of its README. Pass: bands of scenes.py.", "Tests", "tests")
         self.name, self.source = name, PROJECT / "cases" / name
         self.folder = self.folder.parent / f"scene-{name}"
+        shutil.rmtree(self.folder, ignore_errors=True)
         os.environ["MPM_PROJECT_DIR"] = str(PROJECT)
         sys.dont_write_bytecode = True
         spec = importlib.util.spec_from_file_location("report", self.source / "report.py")
