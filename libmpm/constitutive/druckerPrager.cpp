@@ -22,15 +22,7 @@ double factorOf(ConeMatch match, double sinPhi, double sinPsi)
 const DruckerPragerParameters& checked(const DruckerPragerParameters& p)
 {
     requireModuli(p.moduli);
-    if (!std::isfinite(p.cohesion) || p.cohesion < 0)
-        throw InputError(fmt::format("cohesion: found {}, allowed is >= 0", p.cohesion));
-    if (!(p.frictionAngle >= 0 && p.frictionAngle < 90))
-        throw InputError(fmt::format("frictionAngle: found {}, allowed is in [0, 90)", p.frictionAngle));
-    if (!(p.dilationAngle >= 0 && p.dilationAngle <= p.frictionAngle))
-        throw InputError(fmt::format("dilationAngle: found {}, allowed is in [0, frictionAngle = {}]", p.dilationAngle,
-                                     p.frictionAngle));
-    if (!(p.tensionCutOff >= 0))
-        throw InputError(fmt::format("tensionCutOff: found {}, allowed is >= 0", p.tensionCutOff));
+    requireStrength(p.cohesion, p.frictionAngle, p.dilationAngle, p.tensionCutOff);
     return p;
 }
 

@@ -37,4 +37,17 @@ void elasticTrial(const Chunk<dim>& chunk, const ElasticModuli& moduli, double (
 
 template void elasticTrial<2>(const Chunk<2>&, const ElasticModuli&, double (&)[4][lanes]);
 template void elasticTrial<3>(const Chunk<3>&, const ElasticModuli&, double (&)[6][lanes]);
+
+void requireStrength(double cohesion, double frictionAngle, double dilationAngle, double tensionCutOff)
+{
+    if (!std::isfinite(cohesion) || cohesion < 0)
+        throw InputError(fmt::format("cohesion: found {}, allowed is >= 0", cohesion));
+    if (!(frictionAngle >= 0 && frictionAngle < 90))
+        throw InputError(fmt::format("frictionAngle: found {}, allowed is in [0, 90)", frictionAngle));
+    if (!(dilationAngle >= 0 && dilationAngle <= frictionAngle))
+        throw InputError(fmt::format("dilationAngle: found {}, allowed is in [0, frictionAngle = {}]", dilationAngle,
+                                     frictionAngle));
+    if (!(tensionCutOff >= 0))
+        throw InputError(fmt::format("tensionCutOff: found {}, allowed is >= 0", tensionCutOff));
+}
 } // namespace mpm::constitutive

@@ -19,6 +19,9 @@ struct ElasticModuli
 
 /// Throws InputError unless the moduli are finite and in their bounds.
 void requireModuli(const ElasticModuli& moduli);
+/// The same for the strength of soil: cohesion [Pa] >= 0, angles [deg] 0 <= dilation <= friction < 90, tensionCutOff
+/// [Pa] >= 0.
+void requireStrength(double cohesion, double frictionAngle, double dilationAngle, double tensionCutOff);
 
 /// Reads `E` and `nu` of a material dictionary.
 ElasticModuli readModuli(const dictionary::Dictionary& material);

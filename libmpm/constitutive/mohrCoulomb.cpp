@@ -29,15 +29,7 @@ const MohrCoulombParameters& checked(const MohrCoulombParameters& parameters)
 void requireParameters(const MohrCoulombParameters& p)
 {
     requireModuli(p.moduli);
-    if (!std::isfinite(p.cohesion) || p.cohesion < 0)
-        throw InputError(fmt::format("cohesion: found {}, allowed is >= 0", p.cohesion));
-    if (!(p.frictionAngle >= 0 && p.frictionAngle < 90))
-        throw InputError(fmt::format("frictionAngle: found {}, allowed is in [0, 90)", p.frictionAngle));
-    if (!(p.dilationAngle >= 0 && p.dilationAngle <= p.frictionAngle))
-        throw InputError(fmt::format("dilationAngle: found {}, allowed is in [0, frictionAngle = {}]", p.dilationAngle,
-                                     p.frictionAngle));
-    if (!(p.tensionCutOff >= 0))
-        throw InputError(fmt::format("tensionCutOff: found {}, allowed is >= 0", p.tensionCutOff));
+    requireStrength(p.cohesion, p.frictionAngle, p.dilationAngle, p.tensionCutOff);
     if (const auto& s = p.softening)
         if (!(s->from >= 0 && s->over > 0 && s->referenceLength > 0 && s->cohesion >= 0 && s->cohesion <= p.cohesion &&
               s->frictionAngle >= 0 && s->frictionAngle <= p.frictionAngle && s->dilationAngle >= 0 &&
