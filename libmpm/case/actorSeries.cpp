@@ -109,7 +109,7 @@ void ActorSeries::writeSurfaces(const fs::path& postProcessing,
             const auto file = folder / (name + ".vtp");
             if (!fs::exists(file) && body.motion)
             {
-                nodal::RigidBody placed = *body.body;
+                auto placed = dynamic_cast<const nodal::RigidBody&>(*body.body);
                 placed.move(body.motion->pose(time), {});
                 output::replaceText(file, surfaceText(placed));
             }

@@ -95,9 +95,10 @@ nodal::Body readBody(const Dictionary& all, const Dictionary& d, const std::stri
     motion->centre = surface->centroid();
     if (const Dictionary* given = d.findDict("motion", "of the body; default: it rests"))
         *motion = nodal::RigidMotion::read(*given, dim, surface->centroid());
-    out.body = std::make_shared<nodal::RigidBody>(surface, motion->centre);
+    const auto rigid = std::make_shared<nodal::RigidBody>(surface, motion->centre);
+    rigid->move(motion->pose(state.time), {});
+    out.body = rigid;
     out.motion = motion;
-    out.body->move(motion->pose(state.time), {});
 
     const auto& grid = state.grid;
     const auto fail = [&](const std::string& what) { throw InputError(all.where(name), name + ": " + what); };

@@ -23,14 +23,15 @@ Vector3 trialVelocity(const NodeRow<dim>& row, Index i)
 
 template <int dim>
 BodyContact<dim>::BodyContact(const Body& body, const state::GridBox& grid, int actor)
-    : body_(body), actor_(actor), origin_(grid.origin), h_(grid.h), reach_((0.5 + 1e-6) * grid.h)
+    : body_(body), rigid_(std::dynamic_pointer_cast<RigidBody>(body.body)), actor_(actor), origin_(grid.origin),
+      h_(grid.h), reach_((0.5 + 1e-6) * grid.h)
 {}
 
 template <int dim>
 void BodyContact<dim>::place(double time, double dt, const state::GridBox& grid)
 {
     if (body_.motion)
-        body_.body->move(body_.motion->pose(time), body_.motion->meanTwist(time, dt));
+        rigid_->move(body_.motion->pose(time), body_.motion->meanTwist(time, dt));
     if (const double path = body_.body->fastest() * dt; !(path <= 0.5 * grid.h))
         throw StepError(fmt::format("at time {:.9g} s the body '{}' moves {:.3g} m in a step of {:.3g} s, allowed is "
                                     "half a cell, {:.3g} m: a smaller deltaT is needed",
@@ -40,7 +41,7 @@ void BodyContact<dim>::place(double time, double dt, const state::GridBox& grid)
 template <int dim>
 Vector3 BodyContact<dim>::positionAt(double time) const
 {
-    return (body_.motion ? body_.motion->pose(time) : body_.body->pose()).position;
+    return body_.motion ? body_.motion->pose(time).position : body_.body->position();
 }
 
 template <int dim>
@@ -53,7 +54,7 @@ double BodyContact<dim>::speedAt(double time) const
         twist.velocity = body_.motion->translation->velocity(time);
     if (body_.motion->angle)
         twist.angularVelocity = times(body_.motion->angle->velocity(time)[0], body_.motion->axis);
-    RigidBody copy = *body_.body;
+    RigidBody copy = *rigid_;
     copy.move(body_.motion->pose(time), twist);
     return copy.fastest();
 }
@@ -62,7 +63,7 @@ double BodyContact<dim>::speedAt(double time) const
 template <int dim>
 HeldRow* BodyContact<dim>::nodesOf(NodeRow<dim>& row) const
 {
-    const RigidBody& body = *body_.body;
+    const ContactBody& body = *body_.body;
     Index begin = row.begin, end = row.end;
     const Index fixed[3] = {0, row.j, row.k};
     for (int a = 0; a < dim; ++a)
@@ -105,7 +106,8 @@ HeldRow* BodyContact<dim>::nodesOf(NodeRow<dim>& row) const
             x[std::size_t(a)] = origin_[std::size_t(a)] + h_ * double(index[a]);
         const auto nearest = body.nearest(x);
         if (nearest.distance <= reach_)
-            held->nodes.push_back({i, actor_, HeldNode::apart, nearest.normal, body.velocityAt(x), 0});
+            held->nodes.push_back({i, actor_, HeldNode::apart, nearest.normal, body.velocityAt(x, nearest), 0,
+                                   nearest.element, nearest.weights});
     }
     return held;
 }
@@ -133,7 +135,9 @@ void BodyContact<dim>::give(NodeRow<dim>& row, const HeldNode& node, const Vecto
         return;
     auto& sums = row.actors[actor_];
     sums.impulse = plus(sums.impulse, impulse);
-    sums.moment = plus(sums.moment, cross(minus(x, body_.body->pose().position), impulse));
+    sums.moment = plus(sums.moment, cross(minus(x, body_.body->position()), impulse));
+    if (body_.body->collects)
+        sums.impulses.push_back({node.element, node.weights, impulse});
 }
 
 template <int dim>

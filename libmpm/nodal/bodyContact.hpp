@@ -1,5 +1,5 @@
 #pragma once
-/// A rigid body pushes soil: at nodes inside it and up to half a cell around it, with the outward normal n of the body
+/// A body pushes soil: at nodes inside it and up to half a cell around it, with the outward normal n of the body
 /// there (nodal/rigidBody.hpp), V its velocity at the node, r = u - V:
 ///     r_n <- 0 where r.n < 0 (with separation off: always),  r_t <- r_t max(0, 1 - mu |r.n|/|r_t|)
 /// the equations of walls (nodal/wall.hpp), for a surface of any shape. As soil touches what its nodes touch, it is
@@ -39,6 +39,8 @@ struct HeldNode
     State state = apart;
     Vector3 normal{}, velocity{};
     double pushed = 0; ///< velocity into the body that it has taken away
+    Index element = 0; ///< of the surface: nearest to the node
+    std::array<double, 3> weights{};
 };
 
 /// Those of a row (j, k) of a block.
@@ -62,7 +64,9 @@ class BodyContact
     void rub(NodeRow<dim>& row) const;
     void follow(NodeRow<dim>& row) const;
 
-    RigidBody& body() const { return *body_.body; }
+    ContactBody& body() const { return *body_.body; }
+    /// Null for a deformable one.
+    RigidBody* rigid() const { return rigid_.get(); }
     const std::string& name() const { return body_.name; }
     double speedAt(double time) const;
     Vector3 positionAt(double time) const;
@@ -72,6 +76,7 @@ class BodyContact
     void give(NodeRow<dim>& row, const HeldNode& node, const Vector3& change, bool friction) const;
 
     Body body_;
+    std::shared_ptr<RigidBody> rigid_;
     int actor_;
     Vector3 origin_{};
     double h_, reach_;

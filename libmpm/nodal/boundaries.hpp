@@ -30,17 +30,17 @@ struct Wall
     std::shared_ptr<const dictionary::Motion> motion = nullptr; ///< null: it rests
 };
 
-class RigidBody;
+class ContactBody;
 struct RigidMotion;
 
-/// A rigid body soil touches (bodyContact.hpp).
+/// A body soil touches (bodyContact.hpp).
 struct Body
 {
     std::string name;
-    std::shared_ptr<RigidBody> body;
+    std::shared_ptr<ContactBody> body;
     double mu = 0;
     bool separation = true;
-    std::shared_ptr<const RigidMotion> motion = nullptr; ///< null: another program moves it
+    std::shared_ptr<const RigidMotion> motion = nullptr; ///< of a rigid one; null: somebody moves it between steps
 };
 
 /// A plane that lets waves out (absorbingBoundary.hpp).

@@ -5,6 +5,7 @@
 /// u = v_i + dt f/m; body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
 #include "base/record.hpp"
 #include "base/types.hpp"
+#include "nodal/contactBody.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,6 +19,7 @@ struct ActorSums
     Vector3 impulse{}; ///< on the nodes [N s]
     Vector3 moment{};  ///< of these impulses about the body's position [N m s]
     Index contacts = 0;
+    std::vector<SurfaceImpulse> impulses; ///< where the body collects them
 
     ActorSums& operator+=(const ActorSums& o)
     {
@@ -27,6 +29,7 @@ struct ActorSums
             moment[a] += o.moment[a];
         }
         contacts += o.contacts;
+        impulses.insert(impulses.end(), o.impulses.begin(), o.impulses.end());
         return *this;
     }
 };

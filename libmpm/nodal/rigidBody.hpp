@@ -8,7 +8,7 @@
 /// move(); force and torque about `position`, of the soil on the body in the last step, stand here afterwards.
 /// Verified in tests/unit/rigidBodies.cpp.
 #include "dictionary/motion.hpp"
-#include "nodal/rigidSurface.hpp"
+#include "nodal/contactBody.hpp"
 
 #include <memory>
 #include <optional>
@@ -55,7 +55,7 @@ struct RigidMotion
     static RigidMotion read(const dictionary::Dictionary& d, int dim, const Vector3& centroid);
 };
 
-class RigidBody
+class RigidBody : public ContactBody
 {
   public:
     RigidBody(std::shared_ptr<const RigidSurface> surface, const Vector3& reference)
@@ -65,7 +65,7 @@ class RigidBody
         move(pose_, twist_);
     }
 
-    const RigidSurface& surface() const { return *surface_; }
+    const RigidSurface& surface() const override { return *surface_; }
     const Vector3& reference() const { return reference_; }
     const Pose& pose() const { return pose_; }
     const Twist& twist() const { return twist_; }
@@ -73,21 +73,15 @@ class RigidBody
 
     Vector3 toSpace(const Vector3& X) const;
     Vector3 velocityAt(const Vector3& x) const;
-    /// Distance, nearest point and outward normal in space.
-    RigidSurface::Nearest nearest(const Vector3& x) const;
-    /// The box around the body in space.
-    const Vector3& low() const { return low_; }
-    const Vector3& high() const { return high_; }
-    /// The largest speed of its surface [m/s].
-    double fastest() const;
-
-    Vector3 force{}, torque{}; ///< of the soil on the body in the last step [N, N m]; per metre in 2D
+    Vector3 velocityAt(const Vector3& x, const RigidSurface::Nearest&) const override { return velocityAt(x); }
+    RigidSurface::Nearest nearest(const Vector3& x) const override;
+    Vector3 position() const override { return pose_.position; }
+    double fastest() const override;
 
   private:
     std::shared_ptr<const RigidSurface> surface_;
     Vector3 reference_;
     Pose pose_;
     Twist twist_;
-    Vector3 low_{}, high_{};
 };
 } // namespace mpm::nodal

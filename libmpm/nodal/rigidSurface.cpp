@@ -227,11 +227,13 @@ Vector3 RigidSurface::centre(Index e) const
     return times(1.0 / dim_, sum);
 }
 
-Index RigidSurface::makeBox(Index first, Index count)
+/// The box around its elements.
+void RigidSurface::fitLeaf(Box& box) const
 {
     constexpr double ever = std::numeric_limits<double>::infinity();
-    Box box{{ever, ever, ever}, {-ever, -ever, -ever}, first, count};
-    for (Index n = first; n < first + count; ++n)
+    box.low = {ever, ever, ever};
+    box.high = {-ever, -ever, -ever};
+    for (Index n = box.first; n < box.first + box.count; ++n)
         for (std::size_t k = 0; k < std::size_t(dim_); ++k)
             for (std::size_t a = 0; a < 3; ++a)
             {
@@ -239,6 +241,35 @@ Index RigidSurface::makeBox(Index first, Index count)
                 box.low[a] = std::min(box.low[a], x);
                 box.high[a] = std::max(box.high[a], x);
             }
+}
+
+bool RigidSurface::deform(const std::vector<Vector3>& points)
+{
+    points_ = points;
+    measure();
+    if (!(volume_ > 0) || !std::isfinite(volume_))
+        return false;
+    edgeNormals_.clear();
+    makeNormals();
+    for (auto box = boxes_.rbegin(); box != boxes_.rend(); ++box) // children stand behind their parents
+        if (box->left < 0)
+            fitLeaf(*box);
+        else
+            for (std::size_t a = 0; a < 3; ++a)
+            {
+                const Box &l = boxes_[std::size_t(box->left)], &r = boxes_[std::size_t(box->right)];
+                box->low[a] = std::min(l.low[a], r.low[a]);
+                box->high[a] = std::max(l.high[a], r.high[a]);
+            }
+    low_ = boxes_.front().low;
+    high_ = boxes_.front().high;
+    return true;
+}
+
+Index RigidSurface::makeBox(Index first, Index count)
+{
+    Box box{{}, {}, first, count};
+    fitLeaf(box);
     const Index me = Index(boxes_.size());
     boxes_.push_back(box);
     if (count <= 4)
@@ -267,28 +298,31 @@ RigidSurface::Foot RigidSurface::foot(Index e, const Vector3& x) const
     {
         const double t = dot(ab, ax) / dot(ab, ab);
         if (t <= 0)
-            return {a, 4};
-        return t >= 1 ? Foot{b, 5} : Foot{plus(a, times(t, ab)), 0};
+            return {a, 4, {1, 0, 0}};
+        return t >= 1 ? Foot{b, 5, {0, 1, 0}} : Foot{plus(a, times(t, ab)), 0, {1 - t, t, 0}};
     }
     const Vector3& c = points_[std::size_t(n[2])];
     const Vector3 ac = minus(c, a), bx = minus(x, b), cx = minus(x, c);
     const double d1 = dot(ab, ax), d2 = dot(ac, ax), d3 = dot(ab, bx), d4 = dot(ac, bx), d5 = dot(ab, cx),
                  d6 = dot(ac, cx);
     if (d1 <= 0 && d2 <= 0)
-        return {a, 4};
+        return {a, 4, {1, 0, 0}};
     if (d3 >= 0 && d4 <= d3)
-        return {b, 5};
+        return {b, 5, {0, 1, 0}};
     if (d6 >= 0 && d5 <= d6)
-        return {c, 6};
+        return {c, 6, {0, 0, 1}};
     const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    const auto on = [&](int feature, double wb, double wc) {
+        return Foot{plus(a, plus(times(wb, ab), times(wc, ac))), feature, {1 - wb - wc, wb, wc}};
+    };
     if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        return {plus(a, times(d1 / (d1 - d3), ab)), 1};
+        return on(1, d1 / (d1 - d3), 0);
     if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        return {plus(a, times(d2 / (d2 - d6), ac)), 3};
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-        return {plus(b, times((d4 - d3) / (d4 - d3 + d5 - d6), minus(c, b))), 2};
+        return on(3, 0, d2 / (d2 - d6));
+    if (const double bc = (d4 - d3) / (d4 - d3 + d5 - d6); va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+        return on(2, 1 - bc, bc);
     const double all = 1 / (va + vb + vc);
-    return {plus(a, plus(times(vb * all, ab), times(vc * all, ac))), 0};
+    return on(0, vb * all, vc * all);
 }
 
 RigidSurface::Nearest RigidSurface::nearest(const Vector3& x) const
@@ -333,7 +367,7 @@ RigidSurface::Nearest RigidSurface::nearest(const Vector3& x) const
     normal = times(1 / length(normal), normal);
     const Vector3 d = minus(x, found.point);
     const double distance = std::sqrt(best);
-    Nearest out{dot(d, normal) < 0 ? -distance : distance, found.point, normal};
+    Nearest out{dot(d, normal) < 0 ? -distance : distance, found.point, normal, element, found.weights};
     if (distance > 1e-6 * length(minus(high_, low_)))
         out.normal = times(1 / out.distance, d);
     return out;

@@ -25,7 +25,9 @@ class RigidSurface
     {
         double distance = 0; ///< negative inside
         Vector3 point{};
-        Vector3 normal{}; ///< unit, outward: where the way out is shortest
+        Vector3 normal{};                ///< unit, outward: where the way out is shortest
+        Index element = 0;               ///< the point lies on it
+        std::array<double, 3> weights{}; ///< of the element's points there; they add up to 1
     };
 
     /// Points closer than 1e-9 of the size are one (triangles of an STL file name theirs one by one).
@@ -34,6 +36,8 @@ class RigidSurface
     static RigidSurface polygon(const std::vector<Vector3>& corners, const Location& where);
 
     Nearest nearest(const Vector3& x) const;
+    /// The same elements with their points elsewhere. False if they hold no volume any more, or are not finite.
+    bool deform(const std::vector<Vector3>& points);
 
     int dim() const { return dim_; }
     const std::vector<Vector3>& points() const { return points_; }
@@ -54,6 +58,7 @@ class RigidSurface
     {
         Vector3 point{};
         int feature = 0; ///< 0: inside the element; 1..3: edge from corner k - 1; 4..6: corner k - 4
+        std::array<double, 3> weights{};
     };
     void weld();
     void orient(const Location& where);
@@ -62,6 +67,7 @@ class RigidSurface
     void measure();
     void makeNormals();
     Index makeBox(Index first, Index count);
+    void fitLeaf(Box& box) const;
     void refuseCuts(const Location& where) const;
     bool cut(Index e, Index f) const;
     Foot foot(Index e, const Vector3& x) const;

@@ -1,6 +1,7 @@
 #include "nodal/traction.hpp"
 
 #include "base/error.hpp"
+#include "nodal/pointWeights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,87 +13,26 @@ namespace mpm::nodal
 {
 namespace
 {
-/// What a node carries of a load, or tells of a patch's motion. A surface that lies delta beyond a line of nodes, in
-/// cells, gives these nodes a mass of delta^2/2, a hat of delta and so velocities of 1/delta: particles do not feel
-/// them (their weights are delta^2), but a patch that followed them would be torn apart. So light nodes do not move it,
-/// and take no more of the load than the delta that their mass stands for.
-enum class Use
+Vector3 centreOf(const state::SurfacePatch& patch, Index e, int dim)
 {
-    load,
-    motion
-};
+    Vector3 x{};
+    for (int a = 0; a < dim; ++a)
+        x[std::size_t(a)] = patch.centre[std::size_t(a)][std::size_t(e)];
+    return x;
+}
 
-/// Hat functions of the 2^dim nodes around an element's centre, renormalised over nodes with mass.
+/// Weights at an element's centre; StepError where no particle is.
 template <int dim>
-struct PointWeights
+PointWeights<dim> weightsAt(const state::SurfacePatch& patch, Index e, const state::GridBox& grid,
+                            const state::TileGrid& nodes, int body, double smallestMass, Use use)
 {
-    static constexpr int count = 1 << dim;
-    const Record* node[count]; ///< null where no mass is
-    double N[count];
-    double G[count][dim];
-
-    PointWeights(const state::SurfacePatch& patch, Index e, const state::GridBox& grid, const state::TileGrid& nodes,
-                 int body, double smallestMass, Use use)
-    {
-        Index base[3] = {0, 0, 0};
-        double t[3] = {0, 0, 0};
-        for (int a = 0; a < dim; ++a)
-        {
-            const double s = (patch.centre[a][std::size_t(e)] - grid.origin[a]) / grid.h;
-            base[a] = Index(std::floor(s));
-            t[a] = s - std::floor(s);
-        }
-        double total = 0, slope[dim] = {}, heaviest = 0;
-        for (int c = 0; c < count; ++c)
-        {
-            Index index[3] = {base[0], base[1], base[2]};
-            N[c] = 1;
-            for (int a = 0; a < dim; ++a)
-            {
-                const bool up = c >> a & 1;
-                index[a] += up;
-                N[c] *= up ? t[a] : 1 - t[a];
-                G[c][a] = (up ? 1 : -1) / grid.h;
-                for (int b = 0; b < dim; ++b)
-                    if (b != a)
-                        G[c][a] *= (c >> b & 1) ? t[b] : 1 - t[b];
-            }
-            node[c] = nodes.find(index[0], index[1], index[2], body);
-            if (!node[c] || !((*node[c])[0] > smallestMass))
-            {
-                node[c] = nullptr;
-                continue;
-            }
-            heaviest = std::max(heaviest, (*node[c])[0]);
-        }
-        for (int c = 0; c < count; ++c)
-        {
-            if (!node[c])
-                continue;
-            const double mass = (*node[c])[0];
-            if (use == Use::motion && mass < 0.01 * heaviest)
-            {
-                node[c] = nullptr;
-                continue;
-            }
-            if (use == Use::load)
-                N[c] = std::min(N[c], 2 * std::sqrt(mass / heaviest));
-            total += N[c];
-            for (int a = 0; a < dim; ++a)
-                slope[a] += G[c][a];
-        }
-        if (!(total > 0))
-            throw StepError(fmt::format("surface element {} of '{}' at ({:g}, {:g}, {:g}) lies where no particle is", e,
-                                        patch.name, patch.centre[0][std::size_t(e)], patch.centre[1][std::size_t(e)],
-                                        dim == 3 ? patch.centre[2][std::size_t(e)] : 0.0));
-        for (int c = 0; c < count; ++c)
-        {
-            for (int a = 0; a < dim; ++a)
-                G[c][a] = (G[c][a] - N[c] * slope[a] / total) / total;
-            N[c] /= total;
-        }
-    }
-};
+    const Vector3 x = centreOf(patch, e, dim);
+    PointWeights<dim> w(x, grid, nodes, body, smallestMass, use);
+    if (!w.found)
+        throw StepError(fmt::format("surface element {} of '{}' at ({:g}, {:g}, {:g}) lies where no particle is", e,
+                                    patch.name, x[0], x[1], x[2]));
+    return w;
+}
 
 /// Outward normal times area.
 template <int dim>
@@ -106,22 +46,23 @@ Vector3 areaVector(const state::SurfacePatch& p, Index e)
 }
 } // namespace
 
-int bodyUnder(const state::SurfacePatch& patch, const state::Particles& p, const state::TileLayout& layout)
+int bodyUnder(const std::vector<Vector3>& points, const state::Particles& p, const state::TileLayout& layout)
 {
     if (!layout.hasBodies())
         return 0;
-    constexpr Index most = 100; // elements that are asked
+    constexpr Index most = 100; // points that are asked
+    const Index count = Index(points.size());
     std::map<int, Index> votes;
-    for (Index n = 0; n < std::min(most, patch.size()); ++n)
+    for (Index n = 0; n < std::min(most, count); ++n)
     {
-        const std::size_t e = std::size_t(n * patch.size() / std::min(most, patch.size()));
+        const Vector3& x = points[std::size_t(n * count / std::min(most, count))];
         double least = std::numeric_limits<double>::infinity();
         int body = 0;
         for (std::size_t i = 0; i < std::size_t(p.size()); ++i)
         {
             double square = 0;
             for (int a = 0; a < p.dim; ++a)
-                square += (p.x[a][i] - patch.centre[a][e]) * (p.x[a][i] - patch.centre[a][e]);
+                square += (p.x[a][i] - x[std::size_t(a)]) * (p.x[a][i] - x[std::size_t(a)]);
             if (square < least || (square == least && layout.bodyOf(p.material[i]) < body))
             {
                 least = square;
@@ -131,8 +72,8 @@ int bodyUnder(const state::SurfacePatch& patch, const state::Particles& p, const
         ++votes[body];
     }
     int best = 0;
-    for (const auto& [body, count] : votes)
-        if (count > votes[best])
+    for (const auto& [body, voices] : votes)
+        if (voices > votes[best])
             best = body;
     return best;
 }
@@ -146,7 +87,7 @@ void Traction<dim>::scatter(const state::SurfacePatch& patch, const state::GridB
     {
         const Vector3 area = areaVector<dim>(patch, e);
         const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-        const PointWeights<dim> w(patch, e, grid, nodes, body_, smallestMass, Use::load);
+        const auto w = weightsAt<dim>(patch, e, grid, nodes, body_, smallestMass, Use::load);
         for (int c = 0; c < w.count; ++c)
         {
             if (!w.node[c])
@@ -187,7 +128,7 @@ void movePatch(state::SurfacePatch& patch, const state::GridBox& grid, const sta
 {
     for (Index e = 0; e < patch.size(); ++e)
     {
-        const PointWeights<dim> w(patch, e, grid, nodes, body, smallestMass, Use::motion);
+        const auto w = weightsAt<dim>(patch, e, grid, nodes, body, smallestMass, Use::motion);
         double v[dim] = {}, L[dim][dim] = {};
         for (int c = 0; c < w.count; ++c)
             if (w.node[c])

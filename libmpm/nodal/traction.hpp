@@ -45,8 +45,8 @@ class Traction
     std::vector<Added> added_;
 };
 
-/// The body a patch lies on: that of the particle closest to most of its elements. Ties go to the body named first.
-int bodyUnder(const state::SurfacePatch& patch, const state::Particles& particles, const state::TileLayout& layout);
+/// The body a surface lies on: that of the particle closest to most of its points. Ties go to the body named first.
+int bodyUnder(const std::vector<Vector3>& points, const state::Particles& particles, const state::TileLayout& layout);
 
 /// Moves a patch by the velocities v* in the lanes 1..dim of a body's nodes.
 template <int dim>

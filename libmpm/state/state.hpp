@@ -71,6 +71,14 @@ struct SurfacePatch
     std::array<Column<double>, 3> centre; ///< [m]
     std::array<Column<double>, 6> edges;  ///< dim components of edge 1, then of edge 2 (3D) [m]
     Index size() const { return Index(centre[0].size()); }
+    std::vector<Vector3> centres() const
+    {
+        std::vector<Vector3> out(std::size_t(size()), Vector3{});
+        for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t e = 0; e < centre[a].size(); ++e)
+                out[e][a] = centre[a][e];
+        return out;
+    }
 };
 
 struct State

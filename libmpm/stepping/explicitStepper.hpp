@@ -322,8 +322,7 @@ class ExplicitStepper : public Stepper
     double actorSpeed() const;
     /// Is anything prescribed that changes with time?
     bool driven() const;
-    /// Do walls or bodies decide on contact?
-    bool touches() const { return !walls_.empty() || !bodies_.empty(); }
+    bool touches() const { return !walls_.empty() || !bodies_.empty(); } ///< they decide on contact
     bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;
     template <class Body>
@@ -342,6 +341,7 @@ class ExplicitStepper : public Stepper
     List<nodal::WallEffect<dim>> walls_;
     List<nodal::Traction<dim>> tractions_;
     std::vector<std::size_t> tractionPatch_;
+    List<nodal::SurfaceCarrier<dim>> carriers_;
     std::vector<splitting::Barrier> barriers_;
     List<nodal::BodyContact<dim>> bodies_;
     List<nodal::AbsorbingBoundary<dim>> absorbing_;

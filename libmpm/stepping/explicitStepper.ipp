@@ -49,9 +49,11 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
         for (std::size_t k = 0; k < state.patches.size(); ++k)
             if (state.patches[k].name == load.patch)
             {
-                tractions_.emplace_back(load, nodal::bodyUnder(state.patches[k], state.particles, layout_));
+                tractions_.emplace_back(load, nodal::bodyUnder(state.patches[k].centres(), state.particles, layout_));
                 tractionPatch_.push_back(k);
             }
+    for (const auto& surface : scene.carried)
+        carriers_.emplace_back(*surface, nodal::bodyUnder(surface->points, state.particles, layout_));
     for (const auto& material : scene.materials)
     {
         moduli_.push_back({0.5 / material.law->bulkModulus(), 0.25 / material.law->shearModulus()});
@@ -322,6 +324,8 @@ void ExplicitStepper<dim, Shape>::moveSurfaces(double dt)
     for (std::size_t k = 0; k < tractions_.size(); ++k)
         nodal::movePatch<dim>(state_.patches[tractionPatch_[k]], state_.grid, grid_, tractions_[k].body(),
                               smallestMass_, dt);
+    for (auto& surface : carriers_)
+        surface.move(state_.grid, grid_, smallestMass_, dt);
 }
 
 template <int dim, class Shape>

@@ -128,9 +128,13 @@ void ExplicitStepper<dim, Shape>::reportActors(double dt)
         auto& body = contact.body();
         report.name = contact.name();
         report.position = contact.positionAt(state_.time + dt);
-        report.velocity = body.twist().velocity;
-        report.angularVelocity = body.twist().angularVelocity;
+        if (const auto* rigid = contact.rigid())
+        {
+            report.velocity = rigid->twist().velocity;
+            report.angularVelocity = rigid->twist().angularVelocity;
+        }
         state_.ledger.bodyContacts += sums[n].contacts;
+        body.impulses = std::move(sums[n].impulses);
         finish(report, sums[n++]);
         body.force = report.force;
         body.torque = report.torque;
@@ -234,12 +238,16 @@ void ExplicitStepper<dim, Shape>::solveNodes()
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
 {
-    const bool loaded = !tractions_.empty();
+    bool loaded = !tractions_.empty();
+    for (const auto& surface : carriers_)
+        loaded = loaded || surface.loads();
     if (loaded)
     {
         forEachRow(blocks, [&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); });
         for (std::size_t k = 0; k < tractions_.size(); ++k)
             tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_, smallestMass_);
+        for (auto& surface : carriers_)
+            surface.scatter(state_.grid, grid_, smallestMass_);
     }
     forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         if (!loaded)
@@ -265,12 +273,15 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
     auto& ledger = state_.ledger;
     work_.ofForcesBefore -= sums.forceWorkBefore;
     work_.ofForces -= sums.forceWork;
-    for (const auto& traction : tractions_)
-    {
-        const auto [before, after] = traction.book(kick_, ledger.tractionWork, ledger.tractionImpulse);
+    const auto bookLoad = [&](const auto& load) {
+        const auto [before, after] = load.book(kick_, ledger.tractionWork, ledger.tractionImpulse);
         work_.ofForcesBefore += before;
         work_.ofForces += after;
-    }
+    };
+    for (const auto& traction : tractions_)
+        bookLoad(traction);
+    for (const auto& surface : carriers_)
+        bookLoad(surface);
     report_.lightestNode = std::min(report_.lightestNode, sums.lightest);
     report_.unbalancedForce += sums.unbalancedForce;
     report_.appliedForce += sums.appliedForce;

@@ -90,7 +90,8 @@ bool ExplicitStepper<dim, Shape>::disturbsEverywhere() const
     bool incoming = false;
     for (const auto& plane : scene_.absorbing)
         incoming = incoming || plane.incoming;
-    return incoming || !tractions_.empty() || (scene_.gravityRamp && state_.time < scene_.gravityRamp->duration);
+    return incoming || !tractions_.empty() || !carriers_.empty() ||
+           (scene_.gravityRamp && state_.time < scene_.gravityRamp->duration);
 }
 
 /// In solved nodes of a step in which the particles are sorted: which of the tiles awake are quiet?

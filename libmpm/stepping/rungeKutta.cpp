@@ -215,6 +215,8 @@ std::string whyNoOde(const Scene& scene)
         return "merging changes the number of unknowns";
     if (scene.localDamping)
         return "local damping turns round with the velocity, where the right-hand side jumps";
+    if (!scene.carried.empty())
+        return fmt::format("the surface '{}' is carried along", scene.carried.front()->name);
     if (!scene.loads.empty())
         return fmt::format(
             "the load on '{}' acts on a surface carried by the grid, which is no unknown of the particles",

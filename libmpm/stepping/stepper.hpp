@@ -13,6 +13,7 @@
 /// The paper's Eq. 8 (old velocity and old stress) is forward Euler and unstable at every dt; it is not offered.
 #include "constitutive/material.hpp"
 #include "nodal/boundaries.hpp"
+#include "nodal/carriedSurface.hpp"
 #include "nodal/contactProperties.hpp"
 #include "splitting/mergeParticles.hpp"
 #include "splitting/splitParticles.hpp"
@@ -74,10 +75,11 @@ struct Scene
     std::optional<double> localDamping;            ///< its coefficient [-] (nodal/localDamping.hpp)
     std::vector<nodal::Wall> walls;                ///< in the order of the dictionary
     std::vector<nodal::Load> loads;
-    std::optional<nodal::ContactProperties> contact; ///< none: all materials hold together
-    std::vector<nodal::Body> bodies;                 ///< rigid bodies, in the order of the dictionary
-    std::vector<nodal::Absorbing> absorbing;         ///< planes that let waves out
-    std::optional<nodal::GravityRamp> gravityRamp;   ///< how gravity comes on
+    std::optional<nodal::ContactProperties> contact;             ///< none: all materials hold together
+    std::vector<nodal::Body> bodies;                             ///< rigid bodies, in the order of the dictionary
+    std::vector<std::shared_ptr<nodal::CarriedSurface>> carried; ///< surfaces that go with the soil and may load it
+    std::vector<nodal::Absorbing> absorbing;                     ///< planes that let waves out
+    std::optional<nodal::GravityRamp> gravityRamp;               ///< how gravity comes on
     std::optional<splitting::Rule> splitting;
     std::optional<splitting::MergeRule> merging;
     std::optional<treatment::BulkViscosity> bulkViscosity;
