@@ -53,6 +53,14 @@ enum class Support
     vertex   ///< one a vertex
 };
 
+/// Of a written field between the times it was said for (coupling/samples.hpp).
+enum class Interpolation
+{
+    constant,
+    linear, ///< default
+    Hermite
+};
+
 struct Field
 {
     FieldName name;

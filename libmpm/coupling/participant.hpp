@@ -63,13 +63,6 @@ enum class Lifecycle
     Finalized
 };
 
-enum class Interpolation
-{
-    constant,
-    linear, ///< default
-    Hermite
-};
-
 enum class Status
 {
     reached,  ///< the window's end
