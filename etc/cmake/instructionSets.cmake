@@ -65,6 +65,13 @@ function(mpm_set_flags set result)
     set(${result} ${flags} PARENT_SCOPE)
 endfunction()
 
+# A static library that programs and shared libraries (libmpm.so, the Python module, FMUs) are linked from alike. Its
+# symbols are hidden, so that its code is that of a program: no call goes through a table.
+function(mpm_embeddable target)
+    set_target_properties(${target} PROPERTIES
+        POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # Name and flags of the set a target is made for, as base/version.cpp says them; flags and place of one of several.
 function(mpm_instruction_set target output set)
     set(name ${set})
@@ -102,6 +109,9 @@ function(mpm_kernel_library name)
         add_library(${target} ${MPM_KERNEL_LIBRARY})
         target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/libmpm)
         target_link_libraries(${target} PRIVATE mpmWarnings mpmKernelFlags ${ARGN})
+        if(MPM_KERNEL_LIBRARY STREQUAL STATIC)
+            mpm_embeddable(${target})
+        endif()
         mpm_instruction_set(${target} ${name} ${set})
     endforeach()
 endfunction()
