@@ -37,22 +37,6 @@ nodal::RigidSurface readGeometry(const Dictionary& d, int dim)
     return nodal::RigidSurface::polygon(corners, d.where("points"));
 }
 
-/// How deep points half a cell below the surface lie, at most: less than that where a body is thin.
-double depth(const nodal::RigidSurface& surface, double h)
-{
-    double most = 0;
-    for (const auto& e : surface.elements())
-    {
-        Vector3 centre{};
-        for (int k = 0; k < surface.dim(); ++k)
-            centre = nodal::plus(centre, surface.points()[std::size_t(e[std::size_t(k)])]);
-        centre = nodal::times(1.0 / surface.dim(), centre);
-        const Vector3 normal = surface.nearest(centre).normal;
-        most = std::max(most, -surface.nearest(nodal::minus(centre, nodal::times(0.5 * h, normal))).distance);
-    }
-    return most;
-}
-
 void refuseInsideSoil(const Dictionary& all, const nodal::Body& body, const state::State& state)
 {
     const auto& p = state.particles;
@@ -112,7 +96,7 @@ nodal::Body readBody(const Dictionary& all, const Dictionary& d, const std::stri
         if (grid.periodic[n])
             fail("found a rigid body in a periodic grid; allowed: no periodic in system/gridDict");
     }
-    if (const double most = depth(*surface, grid.h); most < 0.45 * grid.h)
+    if (const double most = surface->depth(grid.h); most < 0.45 * grid.h)
         fail(fmt::format("found a body {:g} m thick at most, allowed is a cell, {:g} m, and more: nodes inside it have "
                          "to tell its sides apart",
                          2 * most, grid.h));

@@ -67,8 +67,11 @@ double RunTime::nextStep(double time, double limit) const
 
 bool RunTime::writeNow(double before, double after, Index step) const
 {
-    if (done(after))
-        return true;
+    return done(after) || inTurn(before, after, step);
+}
+
+bool RunTime::inTurn(double before, double after, Index step) const
+{
     if (writeControl_ == "timeStep")
         return step % Index(writeInterval_) == 0;
     // Equal steps: the one nearest to the write time. Steps of changing size: every write time falls into just one of

@@ -56,6 +56,8 @@ class RunTime
     double nextStep(double time, double limit) const;
     /// Is the state after this step to be written?
     bool writeNow(double timeBefore, double timeAfter, Index step) const;
+    /// The same where somebody else says when the run ends.
+    bool inTurn(double timeBefore, double timeAfter, Index step) const;
 
   private:
     bool changing() const; ///< are steps of changing size?

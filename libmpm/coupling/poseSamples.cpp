@@ -60,6 +60,18 @@ void PoseSamples::setTwist(double time, std::span<const double> values)
     omegas_.set(time, values.last(3));
 }
 
+void PoseSamples::dropPosesAfter(double time)
+{
+    places_.dropAfter(time);
+    rotations_.dropAfter(time);
+}
+
+void PoseSamples::dropTwistsAfter(double time)
+{
+    velocities_.dropAfter(time);
+    omegas_.dropAfter(time);
+}
+
 void PoseSamples::setInterpolation(Interpolation kind)
 {
     kind_ = kind;

@@ -32,6 +32,9 @@ class PoseSamples
     void setPose(double time, const nodal::Pose& pose);
     /// vx vy vz wx wy wz; between them linear.
     void setTwist(double time, std::span<const double> values);
+    /// What was said for later than `time` does not hold any more.
+    void dropPosesAfter(double time);
+    void dropTwistsAfter(double time);
     void setInterpolation(Interpolation kind);
 
     bool empty() const { return places_.empty(); }

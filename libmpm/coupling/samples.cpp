@@ -37,6 +37,13 @@ void Samples::set(double time, std::span<const double> values)
     }
 }
 
+void Samples::dropAfter(double time)
+{
+    while (!times_.empty() && times_.back() > time && !sameTime(times_.back(), time))
+        times_.pop_back();
+    values_.resize(times_.size() * count_);
+}
+
 Index Samples::interval(double t) const
 {
     return Index(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin()) - 1;

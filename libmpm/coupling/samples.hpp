@@ -29,6 +29,8 @@ class Samples
 
     /// What is said for `time`; another word for the same time (to round-off) replaces it. Later samples stay.
     void set(double time, std::span<const double> values);
+    /// What was said for later than `time` does not hold any more.
+    void dropAfter(double time);
     void setInterpolation(Interpolation kind) { kind_ = kind; }
 
     std::size_t valueCount() const { return count_; }

@@ -325,6 +325,17 @@ RigidSurface::Foot RigidSurface::foot(Index e, const Vector3& x) const
     return on(0, vb * all, vc * all);
 }
 
+double RigidSurface::depth(double h) const
+{
+    double most = 0;
+    for (Index e = 0; e < Index(elements_.size()); ++e)
+    {
+        const Vector3 inside = minus(centre(e), times(0.5 * h, nearest(centre(e)).normal));
+        most = std::max(most, -nearest(inside).distance);
+    }
+    return most;
+}
+
 RigidSurface::Nearest RigidSurface::nearest(const Vector3& x) const
 {
     double best = std::numeric_limits<double>::infinity();

@@ -39,6 +39,9 @@ class RigidSurface
     /// The same elements with their points elsewhere. False if they hold no volume any more, or are not finite.
     bool deform(const std::vector<Vector3>& points);
 
+    /// How deep points half of h below its elements lie, at most: less than that where the body is thin.
+    double depth(double h) const;
+
     int dim() const { return dim_; }
     const std::vector<Vector3>& points() const { return points_; }
     const std::vector<Element>& elements() const { return elements_; }

@@ -306,6 +306,13 @@ void writeAll(Hdf5File& file, const state::State& state)
 }
 } // namespace
 
+void writeStateAt(const std::filesystem::path& name, const state::State& state)
+{
+    auto file = Hdf5File::create(name);
+    writeAll(file, state);
+    file.close();
+}
+
 PendingState::PendingState(const std::filesystem::path& timeFolder, const state::State& state)
     : file_(timeFolder / stateFileName), folderIsOurs_(!std::filesystem::exists(timeFolder))
 {
@@ -313,9 +320,7 @@ PendingState::PendingState(const std::filesystem::path& timeFolder, const state:
     makeFolder(timeFolder);
     try
     {
-        auto file = Hdf5File::create(temporaryName(file_));
-        writeAll(file, state);
-        file.close();
+        writeStateAt(temporaryName(file_), state);
     }
     catch (const InputError&)
     {

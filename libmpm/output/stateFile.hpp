@@ -67,6 +67,9 @@ class PendingState
 /// A state that could not be read again (see above) is refused and the old file kept.
 void writeState(const std::filesystem::path& timeFolder, const state::State& state);
 
+/// The bare file under exactly this name; an old one is lost.
+void writeStateAt(const std::filesystem::path& file, const state::State& state);
+
 /// Does all the work of writing a state but for the disk's, into memory that is given back (as much as the file takes),
 /// and returns the size of the file [bytes]: what a state will cost.
 double rehearseState(const state::State& state);
