@@ -63,11 +63,7 @@ class Words
     int number_ = 0;
 };
 
-struct Raw
-{
-    std::vector<Vector3> points;
-    std::vector<Element> elements;
-};
+using Raw = SurfaceElements;
 
 Raw readAsciiStl(Words& words)
 {
@@ -260,7 +256,7 @@ void turnAlike(std::vector<Element>& elements, int dim)
 }
 } // namespace
 
-nodal::RigidSurface readSurface(const std::filesystem::path& file, int dim, double scale)
+SurfaceElements readSurfaceElements(const std::filesystem::path& file, int dim, double scale)
 {
     const Location where{file.string(), 0};
     std::string ending = file.extension().string();
@@ -279,7 +275,7 @@ nodal::RigidSurface readSurface(const std::filesystem::path& file, int dim, doub
         throw InputError(where, "cannot be read");
     const std::string bytes = content.str();
     if (bytes.size() > (std::size_t(256) << 20))
-        throw InputError(where, "found more than 256 MB, too much for a rigid body");
+        throw InputError(where, "found more than 256 MB, too much for a surface");
     std::uint32_t count = 0;
     if (bytes.size() >= 84)
         std::memcpy(&count, bytes.data() + 80, 4);
@@ -304,21 +300,28 @@ nodal::RigidSurface readSurface(const std::filesystem::path& file, int dim, doub
             x[a] = dim == 2 && a == 2 ? 0 : x[a] * scale;
     // points of other elements (of a volume, a centre) do not belong to the surface
     std::vector<Index> name(raw.points.size(), -1);
+    for (const auto& e : raw.elements)
+        for (std::size_t k = 0; k < std::size_t(dim); ++k)
+            name[std::size_t(e[k])] = 0;
     std::vector<Vector3> used;
+    for (std::size_t n = 0; n < name.size(); ++n)
+        if (name[n] == 0)
+        {
+            name[n] = Index(used.size());
+            used.push_back(raw.points[n]);
+        }
     for (auto& e : raw.elements)
         for (std::size_t k = 0; k < std::size_t(dim); ++k)
-        {
-            Index& n = name[std::size_t(e[k])];
-            if (n < 0)
-            {
-                n = Index(used.size());
-                used.push_back(raw.points[std::size_t(e[k])]);
-            }
-            e[k] = n;
-        }
+            e[k] = name[std::size_t(e[k])];
     if (dim == 2)
         for (auto& e : raw.elements)
             e[2] = 0;
-    return nodal::RigidSurface(dim, std::move(used), std::move(raw.elements), where);
+    return {std::move(used), std::move(raw.elements)};
+}
+
+nodal::RigidSurface readSurface(const std::filesystem::path& file, int dim, double scale)
+{
+    auto found = readSurfaceElements(file, dim, scale);
+    return nodal::RigidSurface(dim, std::move(found.points), std::move(found.elements), {file.string()});
 }
 } // namespace mpm::cases

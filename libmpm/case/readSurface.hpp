@@ -13,6 +13,14 @@
 
 namespace mpm::cases
 {
+/// As the file names them: points that elements share may be there several times, and the surface may be open.
+struct SurfaceElements
+{
+    std::vector<Vector3> points;
+    std::vector<nodal::RigidSurface::Element> elements; ///< a segment's third point is 0
+};
+SurfaceElements readSurfaceElements(const std::filesystem::path& file, int dim, double scale = 1);
+
 /// Coordinates are multiplied by `scale`.
 nodal::RigidSurface readSurface(const std::filesystem::path& file, int dim, double scale = 1);
 } // namespace mpm::cases

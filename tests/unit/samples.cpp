@@ -315,6 +315,40 @@ TEST_CASE("twists alone move a body: exactly about one axis, with order 2 in the
     };
     CHECK(order(errorOf(10), errorOf(20)) == Approx(2).margin(0.1)); // of the linear twists
     CHECK(errorOf(400) < 1e-5);
+
+    // an axis that turns from x to y, against a hundred thousand small turns
+    PoseSamples samples;
+    samples.setPose(0, valuesOf({}, {1, 0, 0, 0}));
+    samples.setTwist(0, std::array{0.0, 0.0, 0.0, 2.0, 0.0, 0.0});
+    samples.setTwist(1, std::array{0.0, 0.0, 0.0, 0.0, 2.0, 0.0});
+    Quaternion q{1, 0, 0, 0};
+    const int turns = 100000;
+    for (int n = 0; n < turns; ++n)
+    {
+        const double t = (n + 0.5) / turns;
+        q = product(exponential(times(1.0 / turns, {2 * (1 - t), 2 * t, 0})), q);
+    }
+    CHECK(largestDifference(samples.pose(1), {{}, matrixOf(q)}) < 1e-6);
+}
+
+TEST_CASE("poses come as they would have, whatever is forgotten")
+{
+    const Coning body;
+    for (const bool twists : {true, false})
+    {
+        PoseSamples all(Interpolation::Hermite);
+        for (int k = 0; k <= 5; ++k)
+            all.setPose(0.3 * k, body.pose(0.3 * k));
+        for (int k = 0; twists && k <= 20; ++k) // more often than poses, and further
+            all.setTwist(0.1 * k, body.twist(0.1 * k));
+        for (const double now : {0.0, 0.61, 0.89, 1.1, 1.7})
+        {
+            auto kept = all;
+            kept.forget(now);
+            for (double t = now; t < 2.5; t += 0.07)
+                CHECK(largestDifference(all.pose(t), kept.pose(t)) < (now < 1.5 ? 1e-300 : 1e-7));
+        }
+    }
 }
 
 TEST_CASE("bytes bring back every bit; what is no state is refused")
