@@ -11,12 +11,19 @@
 
 namespace mpm::coupling
 {
+inline void putBytes(std::vector<std::byte>& out, const void* from, std::size_t size)
+{
+    const std::size_t at = out.size();
+    out.resize(at + size);
+    if (size > 0)
+        std::memcpy(out.data() + at, from, size);
+}
+
 template <class T>
 void putBytes(std::vector<std::byte>& out, const T& value)
 {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto* from = reinterpret_cast<const std::byte*>(&value);
-    out.insert(out.end(), from, from + sizeof value);
+    putBytes(out, &value, sizeof value);
 }
 
 template <class T>
@@ -34,8 +41,7 @@ T takeBytes(std::span<const std::byte>& bytes)
 inline void putBytes(std::vector<std::byte>& out, const std::vector<double>& values)
 {
     putBytes(out, std::uint64_t(values.size()));
-    const auto* from = reinterpret_cast<const std::byte*>(values.data());
-    out.insert(out.end(), from, from + values.size() * sizeof(double));
+    putBytes(out, values.data(), values.size() * sizeof(double));
 }
 
 inline std::vector<double> takeDoubles(std::span<const std::byte>& bytes)

@@ -22,11 +22,12 @@
 /// controlDict is not looked at: the master owns it. A window in which the calculation cannot go on is discarded: the
 /// participant is back at its start, the message says why.
 ///
-/// Samples. writeField(surface, field, values, relativeTime) says what the field is at time() + relativeTime, and holds
-/// until something later was said. Between samples: constant (the last one not after t), linear, or Hermite, for which
-/// written velocities (RigidTwist, Velocity) are the slopes of poses and displacements, and finite differences without
-/// them. Rotations go along the shortest arc. A surface with velocities only is moved by their integral. A substep
-/// moves the surface by the mean velocity that takes it exactly to where it is said to be.
+/// Samples. writeField(surface, field, values, relativeTime) says what the field is at time() + relativeTime; what was
+/// said for later is dropped, what was said before holds. A surface goes on from where it is; a sample for time()
+/// itself before the first advance() puts it there at once. Between samples: constant (the last one not after t),
+/// linear, or Hermite, for which written velocities (RigidTwist, Velocity) are the slopes of poses and displacements,
+/// and finite differences without them. Rotations go along the shortest arc. A surface with velocities only is moved by
+/// their integral. A substep moves the surface by the mean velocity that takes it exactly to where it is said to be.
 ///
 /// Contact. Rigid and Deformable surfaces push soil as nodal/bodyContact.hpp says. The impulse of a node goes to the
 /// vertices of the element nearest to it by the weights of its foot point, so that sum of Force . velocity over
@@ -146,6 +147,8 @@ class Participant
     std::vector<Field> fields(const std::string& surface) const;
     /// In its reference configuration; the partner's, where one was set.
     const SurfaceMesh& mesh(const std::string& surface) const;
+    /// X of the point that RigidPose places and torques are about [m].
+    Vector3 reference(const std::string& surface) const;
     /// Numbers writeField and readField exchange for a field: components, times vertices.
     std::size_t valueCount(const std::string& surface, FieldName field) const;
     double time() const;

@@ -73,8 +73,8 @@ void Soil::begin()
     if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT)
         throw InputError(*deltaTAt_, fmt::format("deltaT: found {:g} s; allowed: at most {:.4g} s for {} with {}, or "
                                                  "adjustTimeStep yes",
-                                                 runTime_->deltaT(), limit_.deltaT,
-                                                 stepping::methodText(scene_.scene), scene_.shape));
+                                                 runTime_->deltaT(), limit_.deltaT, stepping::methodText(scene_.scene),
+                                                 scene_.shape));
     lock_ = std::make_unique<CaseLock>(folder_.folder(), "a coupled simulation");
     stepping::beginLedger(state_, scene_.scene.materials);
     monitor_->begin(state_, scene_.scene);
@@ -195,6 +195,14 @@ void Soil::writeState(state::State& state, bool outOfTurn)
     for (const auto& time : folder_.times())
         names.push_back(time.name);
     series_.write(names);
+}
+
+void Soil::end()
+{
+    history_.reset();
+    budget_.reset();
+    actors_.reset();
+    lock_.reset();
 }
 
 stepping::Totals Soil::totals() const

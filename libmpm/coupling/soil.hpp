@@ -1,6 +1,6 @@
 #pragma once
-/// The case a participant steps: its dictionaries, state, stepper and files. What mpmSolve's run (case/solverRun.hpp) is
-/// on the command line, without a word on the screen, and with a master that says how far.
+/// The case a participant steps: its dictionaries, state, stepper and files. What mpmSolve's run (case/solverRun.hpp)
+/// is on the command line, without a word on the screen, and with a master that says how far.
 #include "case/actorSeries.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/caseLock.hpp"
@@ -45,6 +45,12 @@ class Soil
     void accept();
     /// The accepted state as the last stored time.
     void store(const state::State& state);
+    /// Is a state to be written at the next accept()?
+    bool due() const { return due_; }
+    /// Did it begin with a state of step 0?
+    bool fresh() const { return startStep_ == 0; }
+    /// Lets go of files and the lock.
+    void end();
     bool outputBegun() const { return history_ != nullptr; }
     stepping::Totals totals() const;
     const stepping::StepReport& report() const { return stepper_->report(); }
@@ -78,9 +84,9 @@ class Soil
     std::unique_ptr<cases::ActorSeries> actors_;
     std::optional<cases::WrittenTimes> written_;
     output::ParaviewSeries series_;
-    std::vector<Row> rows_;      ///< not accepted yet
-    double acceptedTime_ = 0;    ///< [s]
-    double storedTime_ = 0;      ///< [s] of the last state on disk
-    bool due_ = false;           ///< is a state to be written at the next accept()?
+    std::vector<Row> rows_;   ///< not accepted yet
+    double acceptedTime_ = 0; ///< [s]
+    double storedTime_ = 0;   ///< [s] of the last state on disk
+    bool due_ = false;        ///< is a state to be written at the next accept()?
 };
 } // namespace mpm::coupling

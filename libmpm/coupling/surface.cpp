@@ -91,9 +91,10 @@ void Surface::setInterpolation(const Field& field, Interpolation interpolation)
     case FieldName::Traction:
         return now_.traction.setInterpolation(interpolation);
     default:
-        throw CouplingError(Fault::badValue,
-                            fmt::format("{}: found an interpolation of {}, which is linear; allowed is one of RigidPose",
-                                        name_, fieldWord(field.name)));
+        throw CouplingError(
+            Fault::badValue,
+            fmt::format("{}: found an interpolation of {}, which is linear; allowed is one of RigidPose", name_,
+                        fieldWord(field.name)));
     }
 }
 
@@ -119,8 +120,9 @@ void Surface::enter(const state::State& state, stepping::Scene& scene)
     {
         const auto n = std::size_t(a);
         if (high[n] < grid.origin[n] || low[n] > grid.upper(a))
-            refuse(fmt::format("found it at {} = {:g} to {:g}, outside the grid; allowed: {:g} to {:g} (system/gridDict)",
-                               axisNames[n], low[n], high[n], grid.origin[n], grid.upper(a)));
+            refuse(
+                fmt::format("found it at {} = {:g} to {:g}, outside the grid; allowed: {:g} to {:g} (system/gridDict)",
+                            axisNames[n], low[n], high[n], grid.origin[n], grid.upper(a)));
         if (grid.periodic[n] && kind_ != SurfaceKind::Monitor)
             refuse("found it in a periodic grid; allowed: no periodic in system/gridDict");
     }
@@ -169,10 +171,11 @@ void Surface::refuseInsideSoil(const state::State& state) const
         }
     }
     if (count > 0)
-        throw CouplingError(Fault::badSurface,
-                            fmt::format("{}: found {} particles inside it at the start, particle {} the deepest, {:g} m "
-                                        "({:.2g} cells); allowed: a surface that begins outside the soil",
-                                        name_, count, p.id[std::size_t(deepest)], depth, depth / state.grid.h));
+        throw CouplingError(
+            Fault::badSurface,
+            fmt::format("{}: found {} particles inside it at the start, particle {} the deepest, {:g} m "
+                        "({:.2g} cells); allowed: a surface that begins outside the soil",
+                        name_, count, p.id[std::size_t(deepest)], depth, depth / state.grid.h));
 }
 
 void Surface::startAt(const state::State& state)

@@ -7,8 +7,8 @@
 /// element by the weights of the foot point: J_v = sum w_v J. Force = - sum J_v/dt, traction its share of the vertex'
 /// area.
 ///
-/// Contact area: elements are cut into pieces no shorter than a cell; a piece that a pressed node's foot lies on counts.
-/// Stress of a Monitor at x: sum_p w V sigma/sum_p w V, w the hat of width h around x.
+/// Contact area: elements are cut into pieces no shorter than a cell; a piece that a pressed node's foot lies on
+/// counts. Stress of a Monitor at x: sum_p w V sigma/sum_p w V, w the hat of width h around x.
 #include "coupling/mapping.hpp"
 #include "coupling/participant.hpp"
 #include "coupling/poseSamples.hpp"
@@ -52,6 +52,8 @@ class Surface
     void endWindow(double time);
 
     void read(const Field& field, const state::State& state, std::span<double> out) const;
+    /// The same on its own vertices.
+    void readOwn(const Field& field, const state::State& state, std::span<double> out) const;
     void average(const Field& field, std::span<double> out) const;
     Resultants resultants() const;
     double work() const { return now_.work; }
@@ -59,7 +61,9 @@ class Surface
     std::vector<Vector3> points() const;
 
     std::vector<std::byte> save() const;
-    void load(std::span<const std::byte>& bytes);
+    /// CouplingError (badState) for bytes that are none of this surface's; then nothing is changed.
+    void load(std::span<const std::byte> bytes);
+    void requireOwn(std::span<const std::byte> bytes) const { parse(bytes); }
     /// Force of the last exchange, summed before and after the mapping.
     const std::array<Vector3, 2>& mappedSums() const { return sums_; }
 
@@ -74,15 +78,16 @@ class Surface
     {
         PoseSamples pose;
         Samples displacement, velocity, force, traction;
-        nodal::Pose place;                             ///< rigid
-        nodal::Twist twist;                            ///< of the last step
-        std::vector<double> points, velocities;        ///< of vertices, where it is not rigid
-        std::vector<double> impulse, windowImpulse;    ///< on the soil, at vertices [N s]: last step, window
-        std::vector<double> area;                      ///< in contact, at vertices
-        Vector3 onSurface{}, torque{};                 ///< force and torque of the last step
-        Vector3 sumImpulse{}, sumMoment{};             ///< on the surface in the window
-        double step = 0, window = 0, work = 0;         ///< [s], [s], [J]
+        nodal::Pose place;                          ///< rigid
+        nodal::Twist twist;                         ///< of the last step
+        std::vector<double> points, velocities;     ///< of vertices, where it is not rigid
+        std::vector<double> impulse, windowImpulse; ///< on the soil, at vertices [N s]: last step, window
+        std::vector<double> area;                   ///< in contact, at vertices
+        Vector3 onSurface{}, torque{};              ///< force and torque of the last step
+        Vector3 sumImpulse{}, sumMoment{};          ///< on the surface in the window
+        double step = 0, window = 0, work = 0;      ///< [s], [s], [J]
     };
+    Now parse(std::span<const std::byte>& bytes) const;
     bool rigid() const { return kind_ == SurfaceKind::Rigid; }
     void moveBody(double dt);
     void findArea(const std::vector<nodal::SurfaceImpulse>& impulses, double h);

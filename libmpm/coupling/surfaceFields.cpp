@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace mpm::coupling
 {
@@ -251,6 +252,12 @@ void Surface::read(const Field& field, const state::State& state, std::span<doub
     give(field, own(field, state), out);
 }
 
+void Surface::readOwn(const Field& field, const state::State& state, std::span<double> out) const
+{
+    const auto values = own(field, state);
+    std::copy(values.begin(), values.end(), out.begin());
+}
+
 void Surface::average(const Field& field, std::span<double> out) const
 {
     const double window = now_.window;
@@ -269,9 +276,10 @@ void Surface::average(const Field& field, std::span<double> out) const
         for (const double impulse : now_.windowImpulse)
             own.push_back(window > 0 ? -impulse / window : 0);
     else
-        throw CouplingError(Fault::unknownField, fmt::format("{}: found a window average of {}, allowed are Force, Torque "
-                                                             "and Traction",
-                                                             name_, fieldWord(field.name)));
+        throw CouplingError(Fault::unknownField,
+                            fmt::format("{}: found a window average of {}, allowed are Force, Torque "
+                                        "and Traction",
+                                        name_, fieldWord(field.name)));
     give(field, own, out);
 }
 
@@ -296,8 +304,7 @@ void Surface::findArea(const std::vector<SurfaceImpulse>& impulses, double h)
     const RigidSurface& surface = rigid_ ? rigid_->surface() : deformable_->surface();
     std::vector<Piece> pieces;
     for (const auto& given : impulses)
-        pieces.push_back(
-            pieceAt(given.element, given.weights, piecesAlong(surface, given.element, h), mesh_.dim));
+        pieces.push_back(pieceAt(given.element, given.weights, piecesAlong(surface, given.element, h), mesh_.dim));
     std::sort(pieces.begin(), pieces.end());
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
     for (const auto& piece : pieces)
@@ -342,7 +349,7 @@ std::vector<std::byte> Surface::save() const
     return out;
 }
 
-void Surface::load(std::span<const std::byte>& bytes)
+Surface::Now Surface::parse(std::span<const std::byte>& bytes) const
 {
     Now read;
     read.pose = PoseSamples::deserialise(bytes);
@@ -357,18 +364,37 @@ void Surface::load(std::span<const std::byte>& bytes)
     for (double* number : {&read.step, &read.window, &read.work})
         *number = takeBytes<double>(bytes);
     const std::size_t count = now_.points.size();
+    bool fits = read.area.size() == now_.area.size();
     for (const auto* list : {&read.points, &read.velocities, &read.impulse, &read.windowImpulse})
-        if (list->size() != count)
-            throw CouplingError(Fault::badState, name_ + ": found a saved surface with another number of vertices");
-    if (read.area.size() != now_.area.size() || read.displacement.valueCount() != count)
+        fits = fits && list->size() == count;
+    for (const auto* samples : {&read.displacement, &read.velocity, &read.force, &read.traction})
+        fits = fits && samples->valueCount() == count;
+    if (!fits)
         throw CouplingError(Fault::badState, name_ + ": found a saved surface with another number of vertices");
-    now_ = std::move(read);
-    if (!carried_)
-        return moveBody(now_.step);
-    for (std::size_t n = 0; n < count; ++n)
+    return read;
+}
+
+void Surface::load(std::span<const std::byte> bytes)
+{
+    Now before = std::exchange(now_, parse(bytes));
+    if (carried_)
     {
-        carried_->points[n / 3][n % 3] = now_.points[n];
-        carried_->velocities[n / 3][n % 3] = now_.velocities[n];
+        for (std::size_t n = 0; n < now_.points.size(); ++n)
+        {
+            carried_->points[n / 3][n % 3] = now_.points[n];
+            carried_->velocities[n / 3][n % 3] = now_.velocities[n];
+        }
+        return;
+    }
+    try
+    {
+        moveBody(now_.step);
+    }
+    catch (const CouplingError&)
+    {
+        now_ = std::move(before);
+        moveBody(now_.step);
+        throw;
     }
 }
 } // namespace mpm::coupling
