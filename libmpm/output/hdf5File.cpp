@@ -1,12 +1,12 @@
 #include "output/hdf5File.hpp"
 
 #include "base/error.hpp"
+#include "output/hdf5Handle.hpp"
 #include "output/hdf5Probe.hpp"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <type_traits>
 #include <utility>
 
@@ -18,27 +18,6 @@ static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File keeps HDF5's handle
 
 constexpr int maxRank = 4;
 constexpr Index blocksAhead = 16; ///< blocks of a dataset between looks at the disk
-
-/// Owns one HDF5 handle of any kind.
-class Handle
-{
-  public:
-    using Closer = herr_t (*)(hid_t);
-    Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
-    ~Handle()
-    {
-        if (id_ >= 0)
-            closer_(id_);
-    }
-    Handle(Handle&& other) : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
-    Handle& operator=(Handle&&) = delete;
-    operator hid_t() const { return id_; }
-    bool good() const { return id_ >= 0; }
-
-  private:
-    hid_t id_;
-    Closer closer_;
-};
 
 /// HDF5's type for an element in a file (little-endian) or in memory (native).
 template <class Element>
@@ -123,6 +102,14 @@ Handle strongAccess()
     return access;
 }
 
+/// Without the time an object is made at: the same content is the same file.
+Handle timeless(hid_t kind)
+{
+    Handle list(H5Pcreate(kind), H5Pclose);
+    H5Pset_obj_track_times(list, false);
+    return list;
+}
+
 std::uint64_t lengthOnDisk(const std::filesystem::path& file)
 {
     std::error_code error;
@@ -163,7 +150,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file, bool onDisk)
     const Handle access = strongAccess();
     if (!onDisk)
         H5Pset_fapl_core(access, 1 << 20, false); // grows by so many bytes
-    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), access);
     if (id < 0)
         throw InputError({file.string()}, "cannot be written (is the folder there and writable?)");
     return Hdf5File(file, id, onDisk);
@@ -220,7 +207,8 @@ void Hdf5File::makeGroup(const std::string& name)
     {
         if (exists(group))
             continue;
-        const Handle made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+        const Handle made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, timeless(H5P_GROUP_CREATE), H5P_DEFAULT),
+                          H5Gclose);
         if (!made.good())
             fail(group, "this group cannot be made");
     }
@@ -278,8 +266,9 @@ void Hdf5File::store(const std::string& object, const std::string& attribute, El
     if (attribute.empty())
     {
         makeGroup(object.substr(0, object.rfind('/')));
-        const Handle dataset(H5Dcreate2(file_, object.c_str(), onDisk, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                             H5Dclose);
+        const Handle dataset(
+            H5Dcreate2(file_, object.c_str(), onDisk, space, H5P_DEFAULT, timeless(H5P_DATASET_CREATE), H5P_DEFAULT),
+            H5Dclose);
         if (!dataset.good() || (any && H5Dwrite(dataset, inMemory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
             fail(object, "cannot be written (disk full, or already there)");
         followDisk();
@@ -304,9 +293,9 @@ void Hdf5File::storeBlocks(const std::string& object, Element element, const Sha
 {
     makeGroup(object.substr(0, object.rfind('/')));
     const Handle space = spaceOf(shape), inMemory = typeOf(element, false);
-    const Handle dataset(
-        H5Dcreate2(file_, object.c_str(), typeOf(element, true), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-        H5Dclose);
+    const Handle dataset(H5Dcreate2(file_, object.c_str(), typeOf(element, true), space, H5P_DEFAULT,
+                                    timeless(H5P_DATASET_CREATE), H5P_DEFAULT),
+                         H5Dclose);
     bool good = dataset.good();
     for (Index first = 0; good && first < shape.front(); first += rows)
     {

@@ -1,10 +1,7 @@
 #pragma once
 /// A file that exists in memory only, under a path of its own, and goes with its object: for measuring what writing
-/// costs without leaving anything on a disk, and for files that are handed on as bytes.
-#include <cstddef>
+/// costs without leaving anything on a disk.
 #include <filesystem>
-#include <span>
-#include <vector>
 
 namespace mpm::output
 {
@@ -20,9 +17,6 @@ class MemoryFile
     std::filesystem::path path() const;
     /// Bytes written so far; 0 where the system has no files in memory.
     double bytes() const;
-    /// All of it, and anew. InputError where the system has no files in memory, or no more of it.
-    std::vector<std::byte> read() const;
-    void write(std::span<const std::byte> bytes) const;
 
   private:
     int descriptor_ = -1;

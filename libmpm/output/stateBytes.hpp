@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes of a state.h5 (output/stateFile.hpp) and a state from them, by way of a file in memory. InputError as for
+/// The bytes of a state.h5 (output/stateFile.hpp) and a state from them, by way of a temporary file. InputError as for
 /// a file; a bitwise copy otherwise.
 #include "state/state.hpp"
 

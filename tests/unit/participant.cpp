@@ -1,0 +1,362 @@
+// A participant against what it must be: the solver's own steps, balances of momentum and energy across its surfaces,
+// bitwise replay, and named errors that change nothing.
+#include "coupling/participant.hpp"
+
+#include "case/makeStepper.hpp"
+#include "support/coupledCase.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace mpm;
+using namespace mpm::coupling;
+using Catch::Contains;
+using tests::CoupledCase;
+using tests::TemporaryFolder;
+
+namespace
+{
+constexpr double dt = 1.0 / 1024; // a sum of them is exact
+
+SurfaceMesh box(double x0, double y0, double x1, double y1)
+{
+    return polygon({{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}}, true);
+}
+
+std::vector<double> pose(double x, double y, double angle = 0)
+{
+    return {x, y, 0, std::cos(angle / 2), 0, 0, std::sin(angle / 2)};
+}
+
+/// Bytes of all there is.
+std::vector<std::byte> everything(const Participant& p)
+{
+    return p.serialise(p.saveState());
+}
+
+/// A wall of 0.5 m x 1 m that comes from the left at 1 m/s, its face 0.1 m before the block at first.
+Participant pushed(const std::filesystem::path& folder, SurfaceKind kind = SurfaceKind::Rigid, int threads = 0)
+{
+    Participant out(folder, {}, threads);
+    out.addCouplingSurface("wall", box(0.4, 0.25, 0.9, 1.25), kind, {.mu = 0.2});
+    out.initialize();
+    return out;
+}
+
+void pushOn(Participant& p, double window, double speed = 1)
+{
+    const double x = 0.65 + speed * (p.time() + window);
+    if (p.kind("wall") == SurfaceKind::Rigid)
+        p.writeField("wall", FieldName::RigidPose, pose(x, 0.75), window);
+    else
+        p.writeField("wall", FieldName::Displacement,
+                     std::vector<double>{x - 0.65, 0, 0, x - 0.65, 0, 0, x - 0.65, 0, 0, x - 0.65, 0, 0}, window);
+    REQUIRE(p.advance(window).status == Status::reached);
+}
+
+template <class Call>
+Fault faultOf(Call&& call)
+{
+    try
+    {
+        call();
+    }
+    catch (const CouplingError& error)
+    {
+        return error.fault();
+    }
+    FAIL("no error");
+    return Fault::files;
+}
+} // namespace
+
+TEST_CASE("windows take the solver's steps, bitwise")
+{
+    const TemporaryFolder folder;
+    CoupledCase{.velocity = {1, 0.5, 0}}.write(folder.path());
+    auto state = output::readState(folder / "0/state.h5");
+    stepping::Scene scene;
+    scene.materials = {scenes::elastic(1e6, 0.3)};
+    auto stepper = cases::makeStepper("uGIMP", state, scene);
+    stepping::beginLedger(state, scene.materials);
+    for (int n = 0; n < 64; ++n)
+        stepper->step(dt);
+
+    Participant p(folder.path());
+    p.initialize();
+    for (int n = 0; n < 4; ++n)
+    {
+        const auto done = p.advance(16 * dt);
+        REQUIRE(done.substeps == 16);
+        p.acceptWindow();
+    }
+    p.finalize();
+    REQUIRE(p.time() == 64 * dt);
+    const auto end = output::readState(folder / "0.0625/state.h5");
+    REQUIRE(end.time == state.time);
+    REQUIRE(end.particles.x == state.particles.x);
+    REQUIRE(end.particles.v == state.particles.v);
+    REQUIRE(end.particles.stress == state.particles.stress);
+}
+
+TEST_CASE("a window ends where it was said, and no substep is tiny")
+{
+    const TemporaryFolder folder;
+    CoupledCase{}.write(folder.path());
+    Participant p(folder.path());
+    p.initialize();
+    for (const double window : {0.01, 0.1 / 3, dt * (5 + 1e-12), dt / 7, dt * 1.0000001})
+    {
+        const double end = p.time() + window;
+        const auto done = p.advance(window);
+        REQUIRE(done.time == end);
+        REQUIRE(p.time() == end);
+        REQUIRE(double(done.substeps) == std::ceil(window / dt * (1 - 1e-9))); // so the two last are above half a step
+    }
+}
+
+TEST_CASE("impulses on a wall are the soil's momentum, and its work the soil's energy")
+{
+    const auto kind = GENERATE(SurfaceKind::Rigid, SurfaceKind::Deformable);
+    const TemporaryFolder folder;
+    CoupledCase{}.write(folder.path());
+    auto p = pushed(folder.path(), kind);
+    Vector3 impulse{};
+    for (int n = 0; n < 30; ++n)
+    {
+        pushOn(p, 10 * dt);
+        const auto sums = p.resultants("wall");
+        for (std::size_t a = 0; a < 3; ++a)
+            impulse[a] += sums.impulse[a];
+        std::vector<double> average(p.valueCount("wall", FieldName::Force));
+        p.windowAverage("wall", FieldName::Force, average);
+        double total = 0;
+        for (std::size_t k = 0; k < average.size(); k += 3)
+            total += average[k];
+        REQUIRE(total == Approx(sums.impulse[0] / (10 * dt)).epsilon(1e-12).margin(1e-9));
+        p.acceptWindow();
+    }
+    const auto end = p.balance();
+    CAPTURE(end.kineticEnergy, end.strainEnergy, end.interfaceWork, end.dissipation, end.residual);
+    REQUIRE(end.momentum[0] > 100); // 500 kg at up to 2 m/s
+    REQUIRE(end.momentum[0] == Approx(-impulse[0]).epsilon(1e-12));
+    REQUIRE(end.momentum[1] == Approx(-impulse[1]).margin(1e-9));
+    REQUIRE(std::abs(end.residual) < 1e-10 * end.interfaceWork);
+    REQUIRE(p.interfaceWork("wall") == end.interfaceWork);
+    // what comes in stays, but for losses
+    REQUIRE(end.interfaceWork > end.kineticEnergy + end.strainEnergy);
+}
+
+TEST_CASE("a deformable surface moved as a whole does what a rigid one does")
+{
+    const TemporaryFolder one, other;
+    CoupledCase{}.write(one.path());
+    CoupledCase{}.write(other.path());
+    auto rigid = pushed(one.path()), deformable = pushed(other.path(), SurfaceKind::Deformable);
+    for (int n = 0; n < 8; ++n)
+    {
+        pushOn(rigid, 0.01);
+        pushOn(deformable, 0.01);
+    }
+    const auto a = rigid.resultants("wall"), b = deformable.resultants("wall");
+    REQUIRE(a.impulse[0] < -1);
+    REQUIRE(b.impulse[0] == Approx(a.impulse[0]).epsilon(1e-8));
+    REQUIRE(b.momentImpulse[2] - a.momentImpulse[2] == Approx(0).margin(1e-6 * std::abs(a.impulse[0]) * 2));
+    REQUIRE(deformable.interfaceWork("wall") == Approx(rigid.interfaceWork("wall")).epsilon(1e-8));
+    REQUIRE(a.contactArea == Approx(0.5).margin(0.125)); // the block's side, to a cell
+    REQUIRE(b.contactArea == Approx(a.contactArea).epsilon(1e-12));
+}
+
+TEST_CASE("a monitor goes with the soil, and loads it with what is written")
+{
+    const TemporaryFolder folder;
+    CoupledCase{.velocity = {1, 0, 0}}.write(folder.path());
+    Participant p(folder.path());
+    p.addCouplingSurface("side", polygon({{1, 0.5, 0}, {1, 0.75, 0}, {1, 1, 0}}, false), SurfaceKind::Monitor);
+    p.initialize();
+    std::vector<double> values(9);
+    p.advance(0.0625);
+    p.readField("side", FieldName::Displacement, values);
+    for (std::size_t n = 0; n < 3; ++n)
+    {
+        REQUIRE(values[3 * n] == Approx(0.0625).epsilon(1e-12));
+        REQUIRE(values[3 * n + 1] == Approx(0).margin(1e-13));
+    }
+    const auto before = p.balance();
+    p.writeField("side", FieldName::Force, std::vector<double>{0, 10, 0, 0, 20, 0, 0, 10, 0}, 0);
+    p.advance(0.0625);
+    const auto after = p.balance();
+    REQUIRE(after.momentum[1] - before.momentum[1] == Approx(40 * 0.0625).epsilon(1e-12));
+    REQUIRE(after.momentum[0] == Approx(before.momentum[0]).epsilon(1e-12));
+    REQUIRE(after.interfaceWork > 0);
+    REQUIRE(std::abs(after.residual) < 1e-10 * after.kineticEnergy);
+    p.readField("side", FieldName::Velocity, values);
+    REQUIRE(values[4] > 0);
+}
+
+TEST_CASE("a monitor reads the stress around it")
+{
+    const TemporaryFolder folder;
+    CoupledCase{}.write(folder.path());
+    auto state = output::readState(folder / "0/state.h5");
+    const double uniform[] = {-3, -5, -2, 1};
+    for (std::size_t k = 0; k < 4; ++k)
+        for (Index i = 0; i < state.particles.size(); ++i)
+            state.particles.stress[k][std::size_t(i)] = uniform[k];
+    output::writeState(folder / "0", state);
+    Participant p(folder.path());
+    p.addCouplingSurface("line", polygon({{1.2, 0.6, 0}, {1.7, 0.8, 0}}, false), SurfaceKind::Monitor);
+    p.initialize();
+    std::vector<double> stress(12);
+    p.readField("line", FieldName::Stress, stress);
+    for (std::size_t n = 0; n < 2; ++n)
+        for (std::size_t k = 0; k < 6; ++k)
+            REQUIRE(stress[6 * n + k] == Approx(k < 4 ? uniform[k] : 0).epsilon(1e-12));
+}
+
+TEST_CASE("a window taken again from a snapshot is bitwise the first")
+{
+    const auto kind = GENERATE(SurfaceKind::Rigid, SurfaceKind::Deformable);
+    const TemporaryFolder folder, second;
+    CoupledCase{}.write(folder.path());
+    CoupledCase{}.write(second.path());
+    auto p = pushed(folder.path(), kind);
+    pushOn(p, 0.1);
+    const auto start = p.saveState();
+    const auto bytes = p.serialise(start);
+    pushOn(p, 0.1);
+    const auto end = everything(p);
+    p.restoreState(start);
+    pushOn(p, 0.05, 1.5); // another way
+    REQUIRE((everything(p) != end));
+    p.restoreState(start);
+    REQUIRE((everything(p) == bytes));
+    pushOn(p, 0.1);
+    REQUIRE((everything(p) == end));
+
+    auto q = pushed(second.path(), kind); // in another participant
+    q.restoreState(q.deserialise(bytes));
+    REQUIRE(q.time() == 0.1);
+    pushOn(q, 0.1);
+    REQUIRE(q.balance().kineticEnergy == p.balance().kineticEnergy);
+    REQUIRE(q.resultants("wall").impulse == p.resultants("wall").impulse);
+}
+
+TEST_CASE("results do not depend on the number of threads")
+{
+    std::vector<std::byte> first;
+    for (const int threads : {1, 2, 3})
+    {
+        const TemporaryFolder folder;
+        CoupledCase{}.write(folder.path());
+        auto p = pushed(folder.path(), SurfaceKind::Rigid, threads);
+        for (int n = 0; n < 3; ++n)
+            pushOn(p, 0.1);
+        const auto end = everything(p);
+        first = first.empty() ? end : first;
+        REQUIRE((end == first));
+    }
+}
+
+TEST_CASE("only accepted windows are written, and the case goes on from the last")
+{
+    const TemporaryFolder folder, whole;
+    CoupledCase{}.write(folder.path());
+    CoupledCase{}.write(whole.path());
+    {
+        auto p = pushed(folder.path());
+        pushOn(p, 128 * dt);
+        REQUIRE_FALSE(std::filesystem::exists(folder / "postProcessing/history.csv"));
+        REQUIRE_FALSE(std::filesystem::exists(folder / "0.125"));
+        p.acceptWindow();
+        REQUIRE(std::filesystem::exists(folder / "0.125/state.h5"));
+        pushOn(p, 10 * dt);
+        p.acceptWindow();
+        pushOn(p, 100 * dt); // in the middle of which somebody pulls the plug
+        p.finalize();
+        REQUIRE_FALSE(std::filesystem::exists(folder / ".caseLock"));
+    }
+    const auto stored = output::readState(folder / "0.134766/state.h5");
+    REQUIRE(stored.time == 138 * dt);
+    auto again = pushed(folder.path());
+    REQUIRE(again.time() == 138 * dt);
+    pushOn(again, 100 * dt);
+    auto all = pushed(whole.path());
+    pushOn(all, 128 * dt);
+    pushOn(all, 10 * dt);
+    pushOn(all, 100 * dt);
+    REQUIRE(again.balance().kineticEnergy == all.balance().kineticEnergy);
+    REQUIRE(again.balance().momentum == all.balance().momentum);
+    REQUIRE(again.resultants("wall").impulse == all.resultants("wall").impulse);
+    REQUIRE(again.interfaceWork("wall") == all.interfaceWork("wall"));
+}
+
+TEST_CASE("a window that cannot go on is discarded")
+{
+    const TemporaryFolder folder;
+    CoupledCase{.velocity = {30, 0, 0}}.write(folder.path());
+    Participant p(folder.path());
+    p.initialize();
+    p.advance(0.05);
+    const auto before = everything(p);
+    const auto done = p.advance(0.2); // out of the grid
+    REQUIRE(done.status == Status::discarded);
+    REQUIRE(done.time == 0.05);
+    REQUIRE_THAT(done.message, Contains("outside the grid"));
+    REQUIRE((everything(p) == before));
+    REQUIRE(p.advance(0.01).status == Status::reached);
+}
+
+TEST_CASE("what a master does wrong has a name and changes nothing")
+{
+    const TemporaryFolder folder;
+    CoupledCase{}.write(folder.path());
+    {
+        Participant p(folder.path());
+        CHECK(faultOf([&] { p.advance(0.1); }) == Fault::callOrder);
+        CHECK(faultOf([&] { p.saveState(); }) == Fault::callOrder);
+        auto flipped = box(0.4, 0.25, 0.9, 1.25);
+        std::swap(flipped.elements[1][0], flipped.elements[1][1]);
+        CHECK(faultOf([&] { p.addCouplingSurface("w", flipped, SurfaceKind::Rigid); }) == Fault::badSurface);
+        auto twice = box(0.4, 0.25, 0.9, 1.25);
+        twice.elements.push_back(twice.elements[0]);
+        CHECK(faultOf([&] { p.addCouplingSurface("w", twice, SurfaceKind::Rigid); }) == Fault::badSurface);
+        p.addCouplingSurface("w", box(10, 10, 11, 11), SurfaceKind::Rigid);
+        CHECK(faultOf([&] { p.addCouplingSurface("w", box(2.5, 1, 3, 2), SurfaceKind::Rigid); }) == Fault::badSurface);
+        CHECK(faultOf([&] { p.initialize(); }) == Fault::badSurface); // outside the grid
+        CHECK(p.lifecycle() == Lifecycle::Created);
+    }
+    {
+        Participant p(folder.path());
+        p.addCouplingSurface("w", box(0.4, 0.25, 1.1, 1.25), SurfaceKind::Rigid); // in the soil
+        p.initialize();
+        CHECK(faultOf([&] { p.advance(0.1); }) == Fault::badSurface);
+    }
+    auto p = pushed(folder.path());
+    pushOn(p, 0.05);
+    p.writeField("wall", FieldName::RigidPose, pose(0.75, 0.75), 0.1);
+    const auto before = everything(p);
+    const double nan = std::nan("");
+    std::vector<double> seven(7), two(2);
+    CHECK(faultOf([&] { p.initialize(); }) == Fault::callOrder);
+    CHECK(faultOf([&] { p.writeField("door", FieldName::RigidPose, pose(1, 1)); }) == Fault::unknownSurface);
+    CHECK(faultOf([&] { p.writeField("wall", FieldName::Force, seven); }) == Fault::unknownField);
+    CHECK(faultOf([&] { p.readField("wall", FieldName::RigidPose, seven); }) == Fault::unknownField);
+    CHECK(faultOf([&] { p.writeField("wall", FieldName::RigidPose, two); }) == Fault::wrongSize);
+    CHECK(faultOf([&] { p.readField("wall", FieldName::Force, two); }) == Fault::wrongSize);
+    CHECK(faultOf([&] { p.writeField("wall", FieldName::RigidPose, pose(nan, 1)); }) == Fault::notFinite);
+    CHECK(faultOf([&] { p.writeField("wall", FieldName::RigidPose, std::vector<double>(7, 0.0)); }) == Fault::badValue);
+    CHECK(faultOf([&] { p.writeField("wall", FieldName::RigidPose, pose(1, 1), -1); }) == Fault::badValue);
+    for (const double window : {0.0, -1.0, 1e-300, nan, 1e300, 1.0 / 0.0})
+        CHECK(faultOf([&] { p.advance(window); }) == Fault::badWindow);
+    CHECK(faultOf([&] { p.restoreState({}); }) == Fault::badState);
+    auto bytes = before;
+    bytes.resize(bytes.size() / 2);
+    CHECK(faultOf([&] { p.deserialise(bytes); }) == Fault::badState);
+    CHECK((everything(p) == before));
+    p.writeField("wall", FieldName::RigidPose, pose(3, 0.75), 0.01); // through the block
+    const auto said = everything(p);
+    CHECK(faultOf([&] { p.advance(0.01); }) == Fault::jump);
+    CHECK((everything(p) == said));
+    p.finalize();
+    CHECK(faultOf([&] { p.advance(0.1); }) == Fault::callOrder);
+}
