@@ -67,7 +67,9 @@ std::string valueText(const py::handle& value)
         return text + ")";
     }
     if (PyNumber_Check(value.ptr()))
-        return py::repr(value).cast<std::string>();
+        return py::repr(PyIndex_Check(value.ptr()) ? py::object(py::int_(py::reinterpret_borrow<py::object>(value)))
+                                                   : py::float_(py::reinterpret_borrow<py::object>(value)))
+            .cast<std::string>();
     throw py::type_error("settings: found " + py::repr(value).cast<std::string>() +
                          ", allowed numbers, True and False, text, lists of these");
 }
