@@ -32,7 +32,7 @@ for field in soil.fields("wall"):
     print(f"{field.name:14s} [{field.unit}] {field.direction}, {field.support}")
 
 # %% Windows. The wall is repeated with twice the speed where it meets little, to show that a window can be taken back.
-centre = corners.mean(axis=0)
+centre = soil.reference("wall")  # the point a pose is the place of
 force = np.empty(3)  # filled again and again
 rows = []
 while soil.time < end - window / 2:

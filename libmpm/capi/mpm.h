@@ -225,6 +225,8 @@ extern "C"
                                         size_t capacity, size_t* count);
     mpm_status mpm_participant_elements(mpm_participant* participant, const char* surface, int64_t* elements,
                                         size_t capacity, size_t* count);
+    /* The point that RigidPose places and torques are about, in the reference configuration: x y z [m]. */
+    mpm_status mpm_participant_reference(mpm_participant* participant, const char* surface, double* point);
     /* Doubles that write_field and read_field exchange for a field: components, times vertices. */
     mpm_status mpm_participant_value_count(mpm_participant* participant, const char* surface, int32_t field,
                                            size_t* count);

@@ -58,6 +58,9 @@ TEST_CASE("what a surface is")
     std::vector<double> x(12);
     CHECK((mpm_participant_vertices(soil.p, "wall", x.data(), 12, &count) == MPM_OK && count == 12));
     CHECK(x == wallVertices);
+    double point[3] = {};
+    CHECK((mpm_participant_reference(soil.p, "wall", point) == MPM_OK && point[0] == Approx(-0.5)));
+    CHECK((point[1] == Approx(0.575) && point[2] == 0));
     std::vector<std::int64_t> e(8);
     CHECK((mpm_participant_elements(soil.p, "wall", e.data(), 8, &count) == MPM_OK && count == 8));
     CHECK(e == wallSegments);
