@@ -25,7 +25,10 @@ corners = np.array([(-0.94, 0.3), (-0.14, 0.3), (-0.14, 6.0), (-0.94, 6.0)])  # 
 sides = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
 
 # %% The soil. Any word of the case's dictionaries can be another one for this run.
-soil = libmpm.Participant(case, settings={"constant/materialProperties": {"soil.cohesion": 2e3}})
+soil = libmpm.Participant(case, settings={
+    "constant/materialProperties": {"soil.cohesion": 2e3},
+    "system/controlDict": {"recordStrain": None},  # for mpmSolve alone: taken away
+})
 soil.add_coupling_surface("wall", corners, sides, kind="Rigid", mu=0.3)
 soil.initialize()
 for field in soil.fields("wall"):

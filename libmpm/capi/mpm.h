@@ -132,7 +132,7 @@ extern "C"
     {
         const char* file;  /* "constant/materialProperties" */
         const char* word;  /* "soil.cohesion" */
-        const char* value; /* "2e3" */
+        const char* value; /* "2e3"; "" takes the word away */
     } mpm_setting;
 
     typedef struct mpm_surface_options
@@ -212,7 +212,6 @@ extern "C"
     mpm_status mpm_participant_lifecycle(mpm_participant* participant, int32_t* lifecycle);
     mpm_status mpm_participant_dimension(mpm_participant* participant, int32_t* dimension);
     mpm_status mpm_participant_time(mpm_participant* participant, double* time);
-    mpm_status mpm_participant_stable_time_step(mpm_participant* participant, double* step);
     mpm_status mpm_participant_surface_count(mpm_participant* participant, size_t* count);
     mpm_status mpm_participant_surface_name(mpm_participant* participant, size_t index, char* name, size_t capacity,
                                             size_t* count);
@@ -237,6 +236,8 @@ extern "C"
                                            const double* values, size_t count, double relative_time);
     /* Steps to time() + window [s]. MPM_DISCARDED: back at the window's start, result tells so. result may be null. */
     mpm_status mpm_participant_advance(mpm_participant* participant, double window, mpm_advance* result);
+    /* The largest step the scheme may take now [s]; deltaT where it is fixed. */
+    mpm_status mpm_participant_stable_time_step(mpm_participant* participant, double* step);
     /* At time(): forces and tractions of the last substep. */
     mpm_status mpm_participant_read_field(mpm_participant* participant, const char* surface, int32_t field,
                                           double* values, size_t count);

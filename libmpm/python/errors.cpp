@@ -51,6 +51,8 @@ void translate(std::exception_ptr thrown)
 
 std::string valueText(const py::handle& value)
 {
+    if (value.is_none())
+        return ""; // takes the word away
     if (py::isinstance<py::bool_>(value))
         return value.cast<bool>() ? "yes" : "no";
     if (py::isinstance<py::str>(value))
@@ -71,7 +73,7 @@ std::string valueText(const py::handle& value)
                                                    : py::float_(py::reinterpret_borrow<py::object>(value)))
             .cast<std::string>();
     throw py::type_error("settings: found " + py::repr(value).cast<std::string>() +
-                         ", allowed numbers, True and False, text, lists of these");
+                         ", allowed numbers, True and False, text, lists of these, None to take a word away");
 }
 } // namespace
 

@@ -246,7 +246,7 @@ void defineParticipant(py::module_& module)
         .def_property_readonly(
             "stable_time_step",
             [](Session& own) { return own.quick([](Participant& p) { return p.stableTimeStep(); }); },
-            "The largest step the scheme may take now [s].");
+            "From initialize() on: the largest step the scheme may take now [s]; deltaT where it is fixed.");
     defineSurfaces(type);
     defineExchange(type);
     defineStates(type);

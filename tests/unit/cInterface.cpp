@@ -39,7 +39,7 @@ TEST_CASE("a window in C: the wall pushes the block, the books balance")
     CHECK(std::abs(balance.residual) < 1e-9 * work);
     CHECK(balance.momentum[0] > 0);
     REQUIRE(mpm_participant_stable_time_step(soil.p, &step) == MPM_OK);
-    CHECK(step > 0.002);
+    CHECK(step == 0.002); // deltaT
     REQUIRE(mpm_participant_finalize(soil.p) == MPM_OK);
     CHECK(std::filesystem::exists(soil.folder / "0.1" / "state.h5"));
 }
