@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A rigid wall is pushed into the left side of the collapsing column, and drawn with what it feels.
 
     cp -r <libmpm>/cases/collapsingSoilColumn column && seedParticles -case column

@@ -75,7 +75,8 @@ class Module(unittest.TestCase):
         self.assertLess(abs(balance.residual), 1e-9 * balance.gravity_work)
         stress = soil.read_field("probe", "Stress")
         self.assertEqual(stress.shape, (3, 6))
-        self.assertTrue((stress[:, 1] < -20e3).all(), stress)  # 6 m below the top of soil of 1000 kg/m^3
+        vertical = stress[:, 1]  # 6 m below the top: -59 kPa before the column falls, less when it does
+        self.assertTrue(((vertical > -59e3) & (vertical < -5e3)).all(), stress)
         soil.finalize()
         self.assertEqual(soil.lifecycle, "Finalized")
 

@@ -191,11 +191,15 @@ TEST_CASE("surfaces that do not fit the soil")
     {
         Soil soil(false);
         INFO("from x = " << where[0]);
-        const auto taken = soil.addWall("a", where);
-        CHECK((taken == MPM_OK ? mpm_participant_initialize(soil.p) : taken) == MPM_BAD_SURFACE);
+        auto said = soil.addWall("a", where);
+        if (said == MPM_OK)
+            said = mpm_participant_initialize(soil.p);
+        if (said == MPM_OK) // the first pose could have put it elsewhere
+            said = mpm_participant_advance(soil.p, window, nullptr);
+        CHECK(said == MPM_BAD_SURFACE);
         CHECK_THAT(mpm_last_error(), StartsWith("badSurface: ") && Catch::Contains("a"));
         int32_t lifecycle = 7;
-        CHECK((mpm_participant_lifecycle(soil.p, &lifecycle) == MPM_OK && lifecycle == MPM_CREATED));
+        CHECK((mpm_participant_lifecycle(soil.p, &lifecycle) == MPM_OK && lifecycle != MPM_STEPPING));
     }
 }
 
