@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A rigid wall is pushed into the left side of the collapsing column, and drawn with what it feels.
 
     cp -r <libmpm>/cases/collapsingSoilColumn column && seedParticles -case column
@@ -25,14 +25,17 @@ corners = np.array([(-0.94, 0.3), (-0.14, 0.3), (-0.14, 6.0), (-0.94, 6.0)])  # 
 sides = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
 
 # %% The soil. Any word of the case's dictionaries can be another one for this run.
-soil = libmpm.Participant(case, settings={"constant/materialProperties": {"soil.cohesion": 2e3}})
+soil = libmpm.Participant(case, settings={
+    "constant/materialProperties": {"soil.cohesion": 2e3},
+    "system/controlDict": {"recordStrain": None},  # for mpmSolve alone: taken away
+})
 soil.add_coupling_surface("wall", corners, sides, kind="Rigid", mu=0.3)
 soil.initialize()
 for field in soil.fields("wall"):
     print(f"{field.name:14s} [{field.unit}] {field.direction}, {field.support}")
 
 # %% Windows. The wall is repeated with twice the speed where it meets little, to show that a window can be taken back.
-centre = corners.mean(axis=0)
+centre = soil.reference("wall")  # the point a pose is the place of
 force = np.empty(3)  # filled again and again
 rows = []
 while soil.time < end - window / 2:

@@ -179,6 +179,16 @@ mpm_status mpm_participant_elements(mpm_participant* participant, const char* su
     });
 }
 
+mpm_status mpm_participant_reference(mpm_participant* participant, const char* surface, double* point)
+{
+    return withParticipant(participant, [&](Participant& own) {
+        required(surface, "surface");
+        required(point, "point");
+        const Vector3 found = own.reference(surface);
+        std::copy(found.begin(), found.end(), point);
+    });
+}
+
 mpm_status mpm_participant_export_surface(mpm_participant* participant, const char* surface, const char* file)
 {
     return withParticipant(participant, [&](Participant& own) {

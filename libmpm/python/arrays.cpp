@@ -11,7 +11,7 @@ std::string shapeText(const py::array& array)
     std::string text = "(";
     for (py::ssize_t i = 0; i < array.ndim(); ++i)
         text += (i ? ", " : "") + std::to_string(array.shape(i));
-    return text + ")";
+    return text + (array.ndim() == 1 ? ",)" : ")");
 }
 
 /// An array whose memory belongs to a vector on the heap.

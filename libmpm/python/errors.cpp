@@ -51,6 +51,8 @@ void translate(std::exception_ptr thrown)
 
 std::string valueText(const py::handle& value)
 {
+    if (value.is_none())
+        return ""; // takes the word away
     if (py::isinstance<py::bool_>(value))
         return value.cast<bool>() ? "yes" : "no";
     if (py::isinstance<py::str>(value))
@@ -67,9 +69,11 @@ std::string valueText(const py::handle& value)
         return text + ")";
     }
     if (PyNumber_Check(value.ptr()))
-        return py::repr(value).cast<std::string>();
+        return py::repr(PyIndex_Check(value.ptr()) ? py::object(py::int_(py::reinterpret_borrow<py::object>(value)))
+                                                   : py::float_(py::reinterpret_borrow<py::object>(value)))
+            .cast<std::string>();
     throw py::type_error("settings: found " + py::repr(value).cast<std::string>() +
-                         ", allowed numbers, True and False, text, lists of these");
+                         ", allowed numbers, True and False, text, lists of these, None to take a word away");
 }
 } // namespace
 

@@ -124,6 +124,13 @@ void defineSurfaces(Class& type)
                 return own.quick([&](Participant& p) { return owned(p.mesh(surface).vertices); });
             },
             arg("surface"), "(n, 3) [m] in the reference configuration; the partner's, where one was set.")
+        .def(
+            "reference",
+            [](Session& own, const std::string& surface) {
+                const Vector3 point = own.quick([&](Participant& p) { return p.reference(surface); });
+                return py::array_t<double>(3, point.data());
+            },
+            arg("surface"), "(3,) [m]: the point that RigidPose places and torques are about.")
         .def("elements", &elements, arg("surface"), "(m, 2) in 2D, (m, 3) in 3D, from 0.")
         .def(
             "value_count",
@@ -239,7 +246,7 @@ void defineParticipant(py::module_& module)
         .def_property_readonly(
             "stable_time_step",
             [](Session& own) { return own.quick([](Participant& p) { return p.stableTimeStep(); }); },
-            "The largest step the scheme may take now [s].");
+            "From initialize() on: the largest step the scheme may take now [s]; deltaT where it is fixed.");
     defineSurfaces(type);
     defineExchange(type);
     defineStates(type);

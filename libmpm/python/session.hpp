@@ -53,7 +53,8 @@ struct Saved
     std::vector<std::byte> bytes;
 };
 
-/// {"system/controlDict": {"maxCo": 0.3}} as settings: numbers, words, yes and no, lists, text as in a dictionary.
+/// {"system/controlDict": {"maxCo": 0.3}} as settings: numbers, True and False, lists, text as in a dictionary; None
+/// takes a word away.
 std::vector<coupling::Setting> settingsOf(const py::object& settings);
 
 /// CouplingError (with `fault`), InputError, StepError.

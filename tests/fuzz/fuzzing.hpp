@@ -53,6 +53,7 @@ class Folder
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
+    const std::filesystem::path& path() const { return path_; }
     std::filesystem::path write(const std::string& name, const std::string& text) const
     {
         std::filesystem::create_directories((path_ / name).parent_path());

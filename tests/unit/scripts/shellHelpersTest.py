@@ -54,6 +54,13 @@ class ShellHelpers(unittest.TestCase):
                 self.assertEqual(path.split(":")[:2], [f"{home}/build/bin", f"{home}/etc"])
                 self.assertEqual(path.count(f"{home}/"), 2)
 
+    def test_bashrc_puts_the_python_module_first_once(self):
+        _, out, err = self.shell(f"for i in 1 2; do . {self.project}/etc/bashrc; done; echo $PYTHONPATH",
+                                 PYTHONPATH="/of/the/user")
+        self.assertEqual((out, err), (f"{self.project}/build/python:/of/the/user\n", ""))
+        _, out, _ = self.shell(f"unset PYTHONPATH; set -u; . {self.project}/etc/bashrc; echo $PYTHONPATH")
+        self.assertEqual(out, f"{self.project}/build/python\n")
+
     def test_the_clone_sourced_last_comes_first(self):
         other = self.project.parent / "other"
         shutil.copytree(self.project, other)
