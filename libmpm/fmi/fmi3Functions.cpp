@@ -116,10 +116,13 @@ fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state)
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state)
 {
     return guarded(instance, "fmi3FreeFMUState", [&](Instance& own) {
-        if (!state || !*state)
-            return;
-        own.freeState(*state);
-        *state = nullptr;
+        if (own.owns(state)) // the state itself in place of its address, as fmusim passes it
+            own.freeState(state);
+        else if (state && *state)
+        {
+            own.freeState(*state);
+            *state = nullptr;
+        }
     });
 }
 

@@ -49,6 +49,7 @@ class Instance
     /// States that were handed out are the instance's; a handle that is none of them is refused.
     fmi3FMUState saveState(fmi3FMUState reused);
     void restoreState(fmi3FMUState handle);
+    bool owns(fmi3FMUState handle) const { return states_.count(handle) > 0; }
     void freeState(fmi3FMUState handle);
     const std::vector<std::byte>& serialise(fmi3FMUState handle);
     fmi3FMUState deserialise(std::span<const std::byte> bytes);

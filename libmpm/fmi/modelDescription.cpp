@@ -3,7 +3,6 @@
 #include "base/version.hpp"
 #include "fmi/fmuLog.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cctype>
@@ -66,15 +65,20 @@ std::string units(const Variables& variables)
     return out + "  </UnitDefinitions>\n";
 }
 
+std::string dateAndTime()
+{
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    char text[32];
+    return std::string(text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &parts)));
+}
+
 std::string startOf(const Variable& v)
 {
     bool same = true;
     for (const double number : v.start)
         same = same && number == v.start[0];
-    std::string out;
-    for (std::size_t i = 0; i < (same ? 1 : v.start.size()); ++i)
-        out += (out.empty() ? "" : " ") + fmt::format("{}", v.start[i]);
-    return out;
+    return fmt::format("{}", fmt::join(v.start.begin(), same ? v.start.begin() + 1 : v.start.end(), " "));
 }
 
 std::string element(std::size_t reference, const Variable& v)
@@ -99,17 +103,19 @@ std::string element(std::size_t reference, const Variable& v)
 
 std::string structure(const Variables& variables)
 {
-    std::string outputs, unknowns, parameters;
+    std::string outputs, unknowns;
+    std::vector<std::size_t> parameters;
     for (std::size_t i = 0; i < variables.all.size(); ++i)
         if (variables.all[i].parameter)
-            parameters += (parameters.empty() ? "" : " ") + std::to_string(i);
+            parameters.push_back(i);
     for (std::size_t i = 0; i < variables.all.size(); ++i)
     {
         const Causality causality = variables.all[i].causality;
         if (causality == Causality::output)
             outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", i);
         if (causality == Causality::output)
-            unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"{}\"/>\n", i, parameters);
+            unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"{}\"/>\n", i,
+                                    fmt::join(parameters, " "));
         if (causality == Causality::calculatedParameter)
             unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"\"/>\n", i);
     }
@@ -160,8 +166,8 @@ std::string modelDescription(const ModelFacts& facts, const Variables& variables
     out += attribute("instantiationToken", facts.token) + "\n ";
     out += attribute("description", "Soil by the material point method, coupled at surfaces") + "\n ";
     out += attribute("generationTool", tool) + "\n ";
-    out += fmt::format(" generationDateAndTime=\"{:%Y-%m-%dT%H:%M:%SZ}\"\n", fmt::gmtime(std::time(nullptr)));
-    out += "  variableNamingConvention=\"structured\">\n";
+    out += attribute("generationDateAndTime", dateAndTime()) + "\n";
+           out += "  variableNamingConvention=\"structured\">\n";
     out += fmt::format("  <CoSimulation modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                        "canSerializeFMUState=\"true\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
                        facts.modelIdentifier);
@@ -199,9 +205,7 @@ std::string documentationPage(const ModelFacts& facts, const Variables& variable
         xmlText(facts.modelName));
     for (const Variable& v : variables.all)
     {
-        std::string size;
-        for (const std::size_t n : v.shape)
-            size += (size.empty() ? "" : " x ") + std::to_string(n);
+        const std::string size = fmt::format("{}", fmt::join(v.shape, " x "));
         out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", xmlText(v.name),
                            causalityWord(v.causality), xmlText(v.unit.name), size, xmlText(v.description));
     }
