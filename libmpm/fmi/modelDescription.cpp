@@ -65,6 +65,15 @@ std::string units(const Variables& variables)
     return out + "  </UnitDefinitions>\n";
 }
 
+template <class Iterator>
+std::string joined(Iterator first, Iterator last, const char* between)
+{
+    std::string out;
+    for (Iterator i = first; i != last; ++i)
+        out.append(i == first ? "" : between).append(fmt::format("{}", *i));
+    return out;
+}
+
 std::string dateAndTime()
 {
     const std::time_t now = std::time(nullptr);
@@ -78,7 +87,7 @@ std::string startOf(const Variable& v)
     bool same = true;
     for (const double number : v.start)
         same = same && number == v.start[0];
-    return fmt::format("{}", fmt::join(v.start.begin(), same ? v.start.begin() + 1 : v.start.end(), " "));
+    return joined(v.start.begin(), same ? v.start.begin() + 1 : v.start.end(), " ");
 }
 
 std::string element(std::size_t reference, const Variable& v)
@@ -115,7 +124,7 @@ std::string structure(const Variables& variables)
             outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", i);
         if (causality == Causality::output)
             unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"{}\"/>\n", i,
-                                    fmt::join(parameters, " "));
+                                    joined(parameters.begin(), parameters.end(), " "));
         if (causality == Causality::calculatedParameter)
             unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"\"/>\n", i);
     }
@@ -167,7 +176,7 @@ std::string modelDescription(const ModelFacts& facts, const Variables& variables
     out += attribute("description", "Soil by the material point method, coupled at surfaces") + "\n ";
     out += attribute("generationTool", tool) + "\n ";
     out += attribute("generationDateAndTime", dateAndTime()) + "\n";
-           out += "  variableNamingConvention=\"structured\">\n";
+    out += "  variableNamingConvention=\"structured\">\n";
     out += fmt::format("  <CoSimulation modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                        "canSerializeFMUState=\"true\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
                        facts.modelIdentifier);
@@ -205,7 +214,7 @@ std::string documentationPage(const ModelFacts& facts, const Variables& variable
         xmlText(facts.modelName));
     for (const Variable& v : variables.all)
     {
-        const std::string size = fmt::format("{}", fmt::join(v.shape, " x "));
+        const std::string size = joined(v.shape.begin(), v.shape.end(), " x ");
         out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", xmlText(v.name),
                            causalityWord(v.causality), xmlText(v.unit.name), size, xmlText(v.description));
     }
