@@ -91,6 +91,7 @@ FmuExport::FmuExport(const fs::path& caseFolder, const std::string& timeName, co
     if (participant.surfaces().empty())
         throw InputError("system/couplingDict: found no coupling surface, allowed: one or more, so that a master has "
                          "something to couple with");
+    participant.initialize(); // checks the surfaces too
     variables_ = variablesOf(participant, numbersOfCase(packed_->folder()));
     facts_.modelName = modelName;
     facts_.modelIdentifier = identifierOf(modelName);

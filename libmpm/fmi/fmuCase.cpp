@@ -6,12 +6,51 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <set>
+#include <unistd.h>
 #include <vector>
 
 namespace mpm::fmi
 {
 namespace fs = std::filesystem;
+
+namespace
+{
+/// Temporary folders of instances that nobody freed go when the process ends; not when a child of fork() does.
+class Leftovers
+{
+  public:
+    ~Leftovers()
+    {
+        std::error_code none;
+        if (getpid() == process_)
+            for (const fs::path& folder : folders_)
+                fs::remove_all(folder, none);
+    }
+    void add(const fs::path& folder)
+    {
+        const std::lock_guard lock(mutex_);
+        folders_.insert(folder);
+    }
+    void remove(const fs::path& folder)
+    {
+        const std::lock_guard lock(mutex_);
+        folders_.erase(folder);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::set<fs::path> folders_;
+    pid_t process_ = getpid();
+};
+
+Leftovers& leftovers()
+{
+    static Leftovers folders;
+    return folders;
+}
+} // namespace
 
 std::uint64_t hashOf(std::string_view bytes, std::uint64_t from)
 {
@@ -51,6 +90,7 @@ CaseCopy::CaseCopy(const fs::path& caseFolder, const std::string& outputFolder)
         if (!mkdtemp(name.data()))
             throw InputError(fmt::format("cannot make a folder below {}", fs::temp_directory_path().string()));
         temporary_ = name;
+        leftovers().add(temporary_);
         folder_ = temporary_ / caseFolderName;
     }
     else
@@ -60,7 +100,7 @@ CaseCopy::CaseCopy(const fs::path& caseFolder, const std::string& outputFolder)
             throw InputError(fmt::format("outputFolder: found '{}', which is there already, allowed: a new or an "
                                          "empty folder",
                                          outputFolder));
-        fs::create_directories(folder_, error);
+        made_ = fs::create_directories(folder_, error);
     }
     if (!error)
         fs::copy(caseFolder, folder_, fs::copy_options::recursive, error);
@@ -72,17 +112,25 @@ CaseCopy::CaseCopy(const fs::path& caseFolder, const std::string& outputFolder)
         fs::permissions(folder_, fs::perms::owner_write, fs::perm_options::add, error);
     if (!error)
         return;
-    const std::string where = folder_.string();
+    tidy();
+    throw InputError(fmt::format("cannot copy the case to {}: {}", folder_.string(), error.message()));
+}
+
+void CaseCopy::tidy() const
+{
     std::error_code none;
     if (isTemporary())
-        fs::remove_all(temporary_, none);
-    throw InputError(fmt::format("cannot copy the case to {}: {}", where, error.message()));
+        leftovers().remove(temporary_);
+    if (isTemporary() || made_)
+        fs::remove_all(isTemporary() ? temporary_ : folder_, none);
+    else
+        for (const auto& entry : fs::directory_iterator(folder_, none))
+            fs::remove_all(entry, none);
 }
 
 CaseCopy::~CaseCopy()
 {
-    std::error_code none;
-    if (isTemporary())
-        fs::remove_all(temporary_, none);
+    if (isTemporary() || !kept_)
+        tidy();
 }
 } // namespace mpm::fmi

@@ -18,7 +18,7 @@ std::uint64_t hashOf(std::string_view bytes, std::uint64_t from = 14695981039346
 std::string tokenOf(const std::filesystem::path& caseFolder);
 
 /// A copy of a case: in a new folder below the system's temporary ones, which goes with this object, or in a folder the
-/// user named, which must be new or empty and stays. InputError if it cannot be made.
+/// user named, which must be new or empty, and stays once keep() was called. InputError if it cannot be made.
 class CaseCopy
 {
   public:
@@ -29,8 +29,12 @@ class CaseCopy
 
     const std::filesystem::path& folder() const { return folder_; }
     bool isTemporary() const { return !temporary_.empty(); }
+    void keep() { kept_ = true; }
 
   private:
+    void tidy() const;
+
     std::filesystem::path temporary_, folder_;
+    bool made_ = false, kept_ = false;
 };
 } // namespace mpm::fmi

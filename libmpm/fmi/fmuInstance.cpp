@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <omp.h>
 
 namespace mpm::fmi
 {
@@ -20,6 +21,19 @@ bool sameTime(double a, double b)
 {
     return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)});
 }
+
+/// The participant sets how many threads the calling thread has for OpenMP; the importer finds its own number again.
+class ThreadsOfCaller
+{
+  public:
+    ThreadsOfCaller() : before_(omp_get_max_threads()) {}
+    ~ThreadsOfCaller() { omp_set_num_threads(before_); }
+    ThreadsOfCaller(const ThreadsOfCaller&) = delete;
+    ThreadsOfCaller& operator=(const ThreadsOfCaller&) = delete;
+
+  private:
+    int before_;
+};
 } // namespace
 
 Instance::Instance(std::string name, const std::string& token, const std::filesystem::path& resources, Log log)
@@ -66,6 +80,8 @@ void Instance::clear()
     phase_ = Phase::Instantiated;
     values_ = variables_.startValues();
     touched_.assign(variables_.all.size(), false);
+    said_ = values_;
+    saidOf_.assign(variables_.inputs.size(), false);
     outputFolder_.clear();
     stopTime_.reset();
     pending_ = false;
@@ -73,21 +89,32 @@ void Instance::clear()
     substeps_ = 0;
 }
 
-/// A participant of the case with the parameters as they are, not initialised, in a folder of its own.
+/// A participant of the case with the parameters as they are, not initialised; in a folder in which nothing was
+/// calculated yet. Until it is there, all stays as it was.
 void Instance::build()
 {
-    participant_.reset(); // lets go of its folder
-    copy_.reset();
-    copy_ = std::make_unique<CaseCopy>(case_, outputFolder_);
+    std::unique_ptr<CaseCopy> fresh;
+    if (!copy_ || calculated_ || copiedTo_ != outputFolder_)
+        fresh = std::make_unique<CaseCopy>(case_, outputFolder_);
     const double threads = variables_.all.empty() ? 1 : values_[variables_.all[variables_.at("threads")].first];
-    participant_ = std::make_unique<Participant>(copy_->folder(), settings(), int(threads));
+    participant_ = std::make_unique<Participant>((fresh ? fresh : copy_)->folder(), settings(), int(threads));
+    if (fresh)
+        copy_ = std::move(fresh);
+    copiedTo_ = outputFolder_;
+    calculated_ = false;
     stale_ = false;
+}
+
+/// A participant with the parameters as they are that was not initialised yet.
+void Instance::prepare()
+{
+    if (stale_ || !participant_ || participant_->lifecycle() != Lifecycle::Created)
+        build();
 }
 
 void Instance::initialise()
 {
-    if (stale_ || !participant_ || participant_->lifecycle() != Lifecycle::Created)
-        build();
+    prepare();
     participant_->initialize();
     pending_ = false;
     window_ = 0;
@@ -122,10 +149,11 @@ void Instance::enterInitializationMode(double startTime, std::optional<double> s
     require({Phase::Instantiated});
     if (stopTime && !(*stopTime > startTime))
         throw Refusal(fmt::format("found stopTime {}, allowed: after startTime {}", *stopTime, startTime));
-    initialise();
+    prepare();
     if (!sameTime(startTime, participant_->time()))
         throw Refusal(fmt::format("found startTime {}, allowed {}, where the case in the FMU begins", startTime,
                                   participant_->time()));
+    initialise();
     stopTime_ = stopTime;
     phase_ = Phase::InitializationMode;
 }
@@ -136,6 +164,9 @@ void Instance::exitInitializationMode()
     if (stale_)
         initialise();
     writeInputs(0);
+    said_ = values_;
+    for (std::size_t i = 0; i < saidOf_.size(); ++i)
+        saidOf_[i] = isSet(variables_.inputs[i]);
     phase_ = Phase::StepMode;
 }
 
@@ -165,11 +196,28 @@ void Instance::accept()
     log_(fmi3OK, fmt::format("{}: what was calculated until {} s stands", name_, time()));
 }
 
+bool Instance::isSet(const InputField& input) const
+{
+    return std::any_of(input.variables.begin(), input.variables.end(), [&](std::size_t i) { return touched_[i]; });
+}
+
 void Instance::writeInputs(double relativeTime)
 {
     for (const InputField& input : variables_.inputs)
-        if (std::any_of(input.variables.begin(), input.variables.end(), [&](std::size_t i) { return touched_[i]; }))
+        if (isSet(input))
             participant_->writeField(input.surface, input.field, variables_.fieldValues(input, values_), relativeTime);
+}
+
+/// Takes back what was said for the end of a step that was not taken: what held before is said again, which drops what
+/// was said for later. Fields of which nothing was said before need the snapshot.
+void Instance::sayAgain(const coupling::Snapshot& before)
+{
+    if (!before.empty())
+        return participant_->restoreState(before);
+    for (std::size_t i = 0; i < variables_.inputs.size(); ++i)
+        if (saidOf_[i])
+            participant_->writeField(variables_.inputs[i].surface, variables_.inputs[i].field,
+                                     variables_.fieldValues(variables_.inputs[i], said_), 0);
 }
 
 double Instance::doStep(double from, double length, bool stepsBeforeStand)
@@ -185,18 +233,31 @@ double Instance::doStep(double from, double length, bool stepsBeforeStand)
     if (stepsBeforeStand)
         accept();
     const double window = target - participant_->time(); // so that rounding of many steps does not add up
+    const ThreadsOfCaller threads;
+    std::vector<bool> set;
+    for (const InputField& input : variables_.inputs)
+        set.push_back(isSet(input));
+    const coupling::Snapshot before = set == saidOf_ ? coupling::Snapshot() : participant_->saveState();
     try
     {
         writeInputs(window);
         const coupling::Advance done = participant_->advance(window);
+        calculated_ = true;
+        copy_->keep();
         if (done.status == coupling::Status::discarded)
+        {
+            sayAgain(before);
             throw Refusal(done.message, fmi3Discard);
+        }
+        said_ = values_;
+        saidOf_ = set;
         pending_ = true;
         window_ = window;
         substeps_ = done.substeps;
     }
     catch (const CouplingError& error)
     {
+        sayAgain(before);
         const bool badSurface = error.fault() != coupling::Fault::files;
         throw Refusal(error.what(), badSurface ? fmi3Discard : fmi3Error);
     }

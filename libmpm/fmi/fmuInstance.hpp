@@ -58,10 +58,13 @@ class Instance
 
   private:
     void build();
+    void prepare();
     void initialise();
     void clear();
     void refreshOutputs();
+    bool isSet(const InputField& input) const;
     void writeInputs(double relativeTime);
+    void sayAgain(const coupling::Snapshot& before);
     void accept();
     std::vector<coupling::Setting> settings() const;
     bool sameParameters(const std::vector<double>& values) const;
@@ -77,11 +80,15 @@ class Instance
 
     std::unique_ptr<CaseCopy> copy_;
     std::unique_ptr<coupling::Participant> participant_;
-    bool stale_ = false; ///< a parameter was set since the participant was made
+    std::string copiedTo_;    ///< the outputFolder it is a copy for
+    bool calculated_ = false; ///< has a step been taken in it?
+    bool stale_ = false;      ///< a parameter was set since the participant was made
 
     Phase phase_ = Phase::Instantiated;
     std::vector<double> values_;
     std::vector<bool> touched_;
+    std::vector<double> said_; ///< values that were written to the participant last,
+    std::vector<bool> saidOf_; ///< and for which of the input fields
     std::string outputFolder_;
     std::optional<double> stopTime_;
     bool pending_ = false;

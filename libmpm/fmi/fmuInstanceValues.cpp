@@ -123,7 +123,7 @@ fmi3FMUState Instance::saveState(fmi3FMUState reused)
     if (phase_ == Phase::InitializationMode && stale_)
         initialise();
     auto state = std::make_unique<State>();
-    *state = {phase_, values_, touched_, stopTime_, pending_, window_, substeps_, {}, {}, {}};
+    *state = {phase_, values_, touched_, said_, saidOf_, stopTime_, pending_, window_, substeps_, {}, {}, {}};
     if (phase_ != Phase::Instantiated)
         state->snapshot = participant_->saveState();
     if (reused)
@@ -149,10 +149,12 @@ void Instance::restoreState(fmi3FMUState handle)
         if (phase_ != Phase::Instantiated || different)
             stale_ = true;
     }
-    else
+    bool made = false; // what was not calculated here is not written here either
+    if (state.phase != Phase::Instantiated)
     {
         const bool running = phase_ != Phase::Instantiated && !stale_;
-        if (!running || !sameParameters(values))
+        made = !running || !sameParameters(values);
+        if (made)
         {
             const auto before = std::exchange(values_, values);
             stale_ = true;
@@ -173,8 +175,10 @@ void Instance::restoreState(fmi3FMUState handle)
     phase_ = state.phase;
     values_ = std::move(values);
     touched_ = state.touched;
+    said_ = state.said;
+    saidOf_ = state.saidOf;
     stopTime_ = state.stopTime;
-    pending_ = state.pending;
+    pending_ = state.pending && !made;
     window_ = state.window;
     substeps_ = state.substeps;
 }
@@ -201,7 +205,8 @@ const std::vector<std::byte>& Instance::serialise(fmi3FMUState handle)
 
 fmi3FMUState Instance::deserialise(std::span<const std::byte> bytes)
 {
-    auto state = std::make_unique<State>(stateOf(bytes, token_, variables_.all.size(), variables_.valueCount));
+    auto state = std::make_unique<State>(
+        stateOf(bytes, token_, variables_.all.size(), variables_.inputs.size(), variables_.valueCount));
     const fmi3FMUState handle = state.get();
     states_.emplace(handle, std::move(state));
     return handle;

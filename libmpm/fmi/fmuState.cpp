@@ -62,6 +62,21 @@ class Reader
     }
     std::span<const std::byte> rest_;
 };
+std::string digits(const std::vector<bool>& flags)
+{
+    std::string text;
+    for (const bool flag : flags)
+        text += flag ? '1' : '0';
+    return text;
+}
+
+std::vector<bool> flags(std::string_view digits)
+{
+    std::vector<bool> out;
+    for (const char digit : digits)
+        out.push_back(digit == '1');
+    return out;
+}
 } // namespace
 
 const char* phaseName(Phase phase)
@@ -86,10 +101,9 @@ std::vector<std::byte> bytesOf(const State& state, std::span<const std::byte> pa
     out.put(std::string_view(token));
     out.put(std::uint8_t(state.phase));
     out.put(textOf(std::as_bytes(std::span(state.values))));
-    std::string touched;
-    for (const bool t : state.touched)
-        touched += t ? '1' : '0';
-    out.put(std::string_view(touched));
+    out.put(textOf(std::as_bytes(std::span(state.said))));
+    out.put(std::string_view(digits(state.touched)));
+    out.put(std::string_view(digits(state.saidOf)));
     out.put(std::uint8_t(state.stopTime.has_value()));
     out.put(state.stopTime.value_or(0.0));
     out.put(std::uint8_t(state.pending));
@@ -100,7 +114,8 @@ std::vector<std::byte> bytesOf(const State& state, std::span<const std::byte> pa
     return out.bytes;
 }
 
-State stateOf(std::span<const std::byte> bytes, const std::string& token, std::size_t variables, std::size_t values)
+State stateOf(std::span<const std::byte> bytes, const std::string& token, std::size_t variables, std::size_t inputs,
+              std::size_t values)
 {
     const auto refuse = [](const char* what) { throw CouplingError(Fault::badState, what); };
     if (bytes.size() < sizeof(std::uint64_t))
@@ -115,13 +130,16 @@ State stateOf(std::span<const std::byte> bytes, const std::string& token, std::s
         refuse("the serialised state is of another FMU");
     State state;
     state.phase = Phase(in.take<std::uint8_t>());
-    const auto numbers = in.text();
-    state.values.resize(values);
-    if (numbers.size() != values * sizeof(double) || state.phase > Phase::Terminated)
-        refuse("the serialised state is of another FMU");
-    std::memcpy(state.values.data(), numbers.data(), numbers.size());
-    for (const char c : textOf(in.text()))
-        state.touched.push_back(c == '1');
+    for (auto* numbers : {&state.values, &state.said})
+    {
+        const auto found = in.text();
+        numbers->resize(values);
+        if (found.size() != values * sizeof(double) || state.phase > Phase::Terminated)
+            refuse("the serialised state is of another FMU");
+        std::memcpy(numbers->data(), found.data(), found.size());
+    }
+    state.touched = flags(textOf(in.text()));
+    state.saidOf = flags(textOf(in.text()));
     const bool stops = in.take<std::uint8_t>() != 0;
     const double stopTime = in.take<double>();
     if (stops)
@@ -131,7 +149,7 @@ State stateOf(std::span<const std::byte> bytes, const std::string& token, std::s
     state.substeps = in.take<Index>();
     const auto participant = in.text();
     state.serialised.assign(participant.begin(), participant.end());
-    if (!in.done() || state.touched.size() != variables)
+    if (!in.done() || state.touched.size() != variables || state.saidOf.size() != inputs)
         refuse("the serialised FMU state is damaged");
     return state;
 }

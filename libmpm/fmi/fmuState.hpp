@@ -26,6 +26,8 @@ struct State
     Phase phase = Phase::Instantiated;
     std::vector<double> values;        ///< of all variables, pending inputs among them
     std::vector<bool> touched;         ///< variables the master has set
+    std::vector<double> said;          ///< values that were written to the participant last
+    std::vector<bool> saidOf;          ///< and for which of the input fields
     std::optional<double> stopTime;    ///< [s]
     bool pending = false;              ///< steps were taken that are not accepted yet
     double window = 0;                 ///< length of the last communication step [s]
@@ -38,5 +40,6 @@ struct State
 /// `participant`: bytes of its snapshot. The token of the FMU and a check sum go with them.
 std::vector<std::byte> bytesOf(const State& state, std::span<const std::byte> participant, const std::string& token);
 /// CouplingError (badState) for bytes that are damaged or of another FMU.
-State stateOf(std::span<const std::byte> bytes, const std::string& token, std::size_t variables, std::size_t values);
+State stateOf(std::span<const std::byte> bytes, const std::string& token, std::size_t variables, std::size_t inputs,
+              std::size_t values);
 } // namespace mpm::fmi
