@@ -1,6 +1,6 @@
 // The same coupled calculation without an FMU: a participant in a program of its own, values printed exactly (%a).
 //
-//     nativeRun CASE [FILE WORD VALUE]... < windows
+//     runWithoutFmu CASE [FILE WORD VALUE]... < windows
 //
 // A line a window: FROM LENGTH, then x, y and angle of the wall and the settlement of the lid at its end. Answers with
 // a line a window: time, mean force (x, y) and torque on the wall, contact area, work of the wall, kinetic and strain
