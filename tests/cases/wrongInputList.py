@@ -1,5 +1,7 @@
 """The wrong inputs of docs/wrongInputs.md: what is wrong, how a copy of the column gets it, which program meets it."""
 
+import shutil
+
 from wrongEffectList import EFFECTS
 from wrongInputEntries import *
 
@@ -299,5 +301,13 @@ GROUPS = [
         solve("a wall that is not on a node's line", edit(WALLS, "position    0;", "position    0.1;")),
         solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
+    ]),
+    ("An FMU", [
+        Entry("a case without coupling surfaces", "exportFMU"),
+        Entry("a case without a state", "exportFMU", seeded=False),
+        Entry("an FMU that is called otherwise", "exportFMU -output column.zip"),
+        Entry("an FMU of a time that is not stored", "exportFMU -time 7"),
+        Entry("an FMU of two times", "exportFMU -time 0:1", lambda case: shutil.copytree(case / "0", case / "1")),
+        Entry("an FMU where there is no folder", "exportFMU -output nowhere/column.fmu"),
     ]),
 ] + EFFECTS
