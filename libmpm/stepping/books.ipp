@@ -91,7 +91,8 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
 ///     USL, MUSL    1/2 sigma_n : (D* - D_w) and, from one step to the next, 1/2 sigma_n : (D_i - D_w of the last step)
 ///     USF          1/2 sigma_n+1 : (D_i - D_w) and 1/2 sigma_n : (D* of the last step - D_w)
 /// What is left of the mismatch is a function of the state, the staggering: velocities live half a step off the
-/// stresses.
+/// stresses. A step of another size than the last takes up another staggering than was left: the difference is lost in
+/// transfer too.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
 {
@@ -109,11 +110,10 @@ void ExplicitStepper<dim, Shape>::bookStressWork(double dt)
         ledger.initialStaggering = 0.5 * (work_.ofForcesBefore - work_.ofForces);
         work_.ofForces *= dt / kick_;
     }
-    const double sameStep = state_.step == 0 ? 1 : state_.deltaT / dt;
     if (strainsFirst)
-        ledger.transferLoss += 0.5 * (work_.ofForcesBefore - work_.ofStrains + ledger.pendingWork - sameStep * found);
+        ledger.transferLoss += 0.5 * (work_.ofForcesBefore - work_.ofStrains + ledger.pendingWork - found);
     else
-        ledger.transferLoss += 0.5 * (work_.ofForces - work_.ofStrainsBefore + sameStep * found - ledger.pendingWork);
+        ledger.transferLoss += 0.5 * (work_.ofForces - work_.ofStrainsBefore + found - ledger.pendingWork);
     ledger.pendingWork = strainsFirst ? work_.ofForces : work_.ofStrains;
     ledger.staggering = (strainsFirst ? -0.5 : 0.5) * ledger.pendingWork;
 }
