@@ -57,25 +57,88 @@ double measure(const Points& p, const std::vector<Simplex>& elements)
     return sum;
 }
 
-Points movedIn(const Wrap& wrap, double way)
+/// The points of a wrap on their way in; each takes its share of the way.
+class Move
 {
-    Points moved = wrap.points;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            moved[i][k] -= way * wrap.outward[i][k];
-    return moved;
+  public:
+    explicit Move(const Wrap& wrap) : wrap_(wrap), share_(wrap.points.size(), 1.0) {}
+
+    Points by(double way) const
+    {
+        Points moved = wrap_.points;
+        for (std::size_t i = 0; i < moved.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                moved[i][k] -= way * share_[i] * wrap_.outward[i][k];
+        return moved;
+    }
+
+    /// The way that leaves `volume` enclosed; between -furthest and furthest.
+    double wayTo(double volume, double furthest) const
+    {
+        double least = -furthest, most = furthest;
+        for (int i = 0; i < 60; ++i)
+        {
+            const double middle = 0.5 * (least + most);
+            (enclosed(by(middle), wrap_.elements) > volume ? least : most) = middle;
+        }
+        return 0.5 * (least + most);
+    }
+
+    /// Points of these elements, and those next to them, go less far: half as far, after a few times nowhere.
+    void holdBack(const std::vector<std::size_t>& elements)
+    {
+        std::vector<bool> held(share_.size(), false), near = held;
+        for (const std::size_t e : elements)
+            for (const int v : wrap_.elements[e])
+                if (v >= 0)
+                    held[std::size_t(v)] = true;
+        for (const Simplex& s : wrap_.elements)
+            if (std::any_of(s.begin(), s.end(), [&](int v) { return v >= 0 && held[std::size_t(v)]; }))
+                for (const int v : s)
+                    if (v >= 0)
+                        near[std::size_t(v)] = true;
+        for (std::size_t i = 0; i < share_.size(); ++i)
+            if (near[i])
+                share_[i] = share_[i] > 0.2 ? 0.5 * share_[i] : 0;
+    }
+
+    std::size_t heldBack() const
+    {
+        return std::size_t(std::count_if(share_.begin(), share_.end(), [](double s) { return s < 1; }));
+    }
+
+  private:
+    const Wrap& wrap_;
+    std::vector<double> share_;
+};
+
+/// Do two segments without a common end meet? In floating point: the check of the body is exact.
+bool meet(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
+{
+    const auto side = [](const Vector3& p, const Vector3& q, const Vector3& r) {
+        return cross(difference(q, p), difference(r, p))[2];
+    };
+    for (std::size_t k = 0; k < 2; ++k)
+        if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k]))
+            return false;
+    return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }
 
-/// How far the points of the wrap have to move in until it encloses `volume`; between -furthest and furthest.
-double wayTo(double volume, const Wrap& wrap, double furthest)
+/// Elements that cut others.
+std::vector<std::size_t> cutting(const Points& points, const std::vector<Simplex>& elements, int dim)
 {
-    double least = -furthest, most = furthest;
-    for (int i = 0; i < 60 && least < most; ++i)
-    {
-        const double middle = 0.5 * (least + most);
-        (enclosed(movedIn(wrap, middle), wrap.elements) > volume ? least : most) = middle;
-    }
-    return 0.5 * (least + most);
+    if (dim == 3)
+        return cuttingTriangles(points, elements);
+    std::vector<std::size_t> found;
+    const auto at = [&](int v) -> const Vector3& { return points[std::size_t(v)]; };
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            const Simplex &s = elements[i], &t = elements[j];
+            if (s[0] != t[1] && s[1] != t[0] && meet(at(s[0]), at(s[1]), at(t[0]), at(t[1])))
+                found.insert(found.end(), {i, j});
+        }
+    return found;
 }
 
 /// Checks it as a body is checked; the loops of a wrap follow one another, each element begins where the last ended.
@@ -229,39 +292,41 @@ DeformedSurface deformedSurface(const std::vector<ParticleDomain>& domains, int 
 
     // A hair outside the domains, where the ways in of neighbours have not met yet.
     const double back = dim == 3 ? 0.98 * how.offset : 0;
-    made.outlineVolume = enclosed(movedIn(wrap, back), wrap.elements);
+    Move move(wrap);
+    made.outlineVolume = enclosed(move.by(back), wrap.elements);
     const bool whole = made.pieces == 1 || how.pieces == Pieces::all;
     made.particleVolume = volumeInside(domains, whole ? nullptr : checked(wrap.points, wrap.elements, dim).get());
     requireVolume(made, how);
-    const double way = how.matchVolume ? wayTo(made.particleVolume, wrap, how.offset + how.alpha) : back;
 
-    std::unique_ptr<Region> region;
-    std::string refusal;
-    double taken = 0;
-    for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0})
+    double way = 0;
+    for (int round = 0; round < 40; ++round)
     {
-        taken = share * way;
-        made.points = movedIn(wrap, taken);
-        try
-        {
-            region = checked(made.points, wrap.elements, dim);
-        }
-        catch (const InputError& error)
-        {
-            refusal = error.what();
-            continue;
-        }
-        if (share < 1)
-            made.notes.push_back(fmt::format(
-                "points moved in by {:.0f} % of the way only, beyond which the surface would cut itself", 100 * share));
-        break;
+        way = how.matchVolume ? move.wayTo(made.particleVolume, how.offset + how.alpha) : back;
+        made.points = move.by(way);
+        const auto cuts = cutting(made.points, wrap.elements, dim);
+        if (cuts.empty())
+            break;
+        move.holdBack(cuts);
     }
-    if (!region)
+    if (const std::size_t held = move.heldBack(); 4 * held > wrap.points.size())
+        made.notes.push_back(
+            fmt::format("{} of {} points were held back, or the surface would cut itself", held, wrap.points.size()));
+    std::unique_ptr<Region> region;
+    try
+    {
+        region = checked(made.points, wrap.elements, dim);
+    }
+    catch (const InputError& error)
+    {
         throw InputError(fmt::format("{} (alpha {:.4g}, offset {:.4g} cells); allowed: another alpha or offset",
-                                     refusal, how.alpha / how.cell, how.offset / how.cell));
+                                     error.what(), how.alpha / how.cell, how.offset / how.cell));
+    }
+    if (how.matchVolume && std::abs(region->volume() / made.particleVolume - 1) > 1e-6)
+        made.notes.push_back(
+            "the volume could not be matched without the surface cutting itself; a smaller alpha closes less");
     made.elements = wrap.elements;
     made.volume = region->volume();
-    made.movedIn = taken - back;
+    made.movedIn = way - back;
     made.area = measure(made.points, made.elements);
     return made;
 }

@@ -5,7 +5,7 @@
 /// 2. In 3D the outline lies `offset` outside the domains: its points go back to them, along the way they came.
 /// 3. matchVolume: domains of sheared particles overlap and gape, and hollows between their corners are closed, so the
 ///    outline holds a few per cent more than the particles do. All points move in by the one length with which the
-///    volumes agree. A move after which the surface would cut itself is shortened.
+///    volumes agree. Points where the surface would cut itself are held back, and the others go a little further.
 ///
 /// The result is checked as any geometry is (region2D.hpp, region3D.hpp): closed, no self-intersections.
 ///

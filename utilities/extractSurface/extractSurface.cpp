@@ -1,10 +1,12 @@
 // The closed surface of the deformed material at stored times, as STL (3D) and gmsh mesh: from particles back to
 // geometry.
+#include "base/error.hpp"
 #include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/caseLock.hpp"
 #include "coupling/exportSurface.hpp"
+#include "dictionary/dictionary.hpp"
 #include "geometry/deformedSurface.hpp"
 #include "geometry/particleDomains.hpp"
 #include "output/stateFile.hpp"
