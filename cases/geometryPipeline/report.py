@@ -159,7 +159,7 @@ def draw(case):
     axes[2].set_title(f"6 surface: {len(elements[2])} triangles")
     for a in axes:
         a.set(xlim=(-0.1, 0.34), ylim=(-0.08, 0.26), zlim=(0, HEIGHT))
-        a.set_box_aspect((0.44, 0.34, HEIGHT))
+        a.set_box_aspect((0.44, 0.34, HEIGHT), zoom=1.5)
         a.view_init(35, -70)
         a.tick_params(labelsize=5, pad=-3)
     report.save(figure, case / "stages.png", 130)
