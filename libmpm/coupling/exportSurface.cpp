@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <iterator>
+#include <numeric>
 
 namespace mpm::coupling
 {
@@ -91,38 +92,77 @@ std::string vtp(const SurfaceMesh& mesh, const std::vector<VertexField>& fields)
     return out;
 }
 
+/// Elements by piece: those that hang together by their vertices, pieces in the order of their first elements.
+std::vector<std::vector<std::size_t>> pieces(const SurfaceMesh& mesh)
+{
+    std::vector<Index> root(mesh.vertices.size());
+    std::iota(root.begin(), root.end(), Index(0));
+    const auto find = [&](Index v) {
+        while (root[std::size_t(v)] != v)
+            v = root[std::size_t(v)] = root[std::size_t(root[std::size_t(v)])];
+        return v;
+    };
+    for (const auto& e : mesh.elements)
+        for (std::size_t k = 1; k < std::size_t(mesh.dim); ++k)
+            root[std::size_t(find(e[k]))] = find(e[0]);
+    std::vector<std::vector<std::size_t>> found;
+    std::vector<std::size_t> number(mesh.vertices.size(), std::size_t(-1));
+    for (std::size_t n = 0; n < mesh.elements.size(); ++n)
+    {
+        std::size_t& piece = number[std::size_t(find(mesh.elements[n][0]))];
+        if (piece == std::size_t(-1))
+        {
+            piece = found.size();
+            found.emplace_back();
+        }
+        found[piece].push_back(n);
+    }
+    return found;
+}
+
+/// Each piece is a curve or surface of its own, tags from 1, so that a .geo file can say what is a hole in what; all
+/// vertices stand with the first, in their order.
 std::string msh(const std::string& name, const SurfaceMesh& mesh)
 {
-    const int entity = mesh.dim - 1; // a curve or a surface, tag 1
+    const int entity = mesh.dim - 1;
     std::string group;
     for (const char c : name)
         if (c != '"' && c != '\n' && c != '\r')
             group += c;
     std::string out = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
     add(out, "$PhysicalNames\n1\n{} 1 \"{}\"\n$EndPhysicalNames\n", entity, group);
-    Vector3 low = mesh.vertices.front(), high = low;
-    for (const auto& x : mesh.vertices)
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-            low[a] = std::min(low[a], x[a]);
-            high[a] = std::max(high[a], x[a]);
-        }
-    add(out, "$Entities\n0 {} {} 0\n1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 1 1 0\n$EndEntities\n",
-        entity == 1 ? 1 : 0, entity == 2 ? 1 : 0, low[0], low[1], low[2], high[0], high[1], high[2]);
+    const auto parts = pieces(mesh);
+    add(out, "$Entities\n0 {} {} 0\n", entity == 1 ? parts.size() : 0, entity == 2 ? parts.size() : 0);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+    {
+        Vector3 low = mesh.vertices[std::size_t(mesh.elements[parts[p][0]][0])], high = low;
+        for (const std::size_t n : parts[p])
+            for (std::size_t k = 0; k < std::size_t(mesh.dim); ++k)
+                for (std::size_t a = 0; a < 3; ++a)
+                {
+                    low[a] = std::min(low[a], mesh.vertices[std::size_t(mesh.elements[n][k])][a]);
+                    high[a] = std::max(high[a], mesh.vertices[std::size_t(mesh.elements[n][k])][a]);
+                }
+        add(out, "{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 1 1 0\n", p + 1, low[0], low[1], low[2], high[0],
+            high[1], high[2]);
+    }
     const std::size_t count = mesh.vertices.size();
-    add(out, "$Nodes\n1 {} 1 {}\n{} 1 0 {}\n", count, count, entity, count);
+    add(out, "$EndEntities\n$Nodes\n1 {} 1 {}\n{} 1 0 {}\n", count, count, entity, count);
     for (std::size_t n = 1; n <= count; ++n)
         add(out, "{}\n", n);
     for (const auto& x : mesh.vertices)
         add(out, "{:.17g} {:.17g} {:.17g}\n", x[0], x[1], x[2]);
-    const std::size_t elements = mesh.elements.size();
-    add(out, "$EndNodes\n$Elements\n1 {} 1 {}\n{} 1 {} {}\n", elements, elements, entity, entity, elements);
-    for (std::size_t n = 0; n < elements; ++n)
+    add(out, "$EndNodes\n$Elements\n{} {} 1 {}\n", parts.size(), mesh.elements.size(), mesh.elements.size());
+    for (std::size_t p = 0; p < parts.size(); ++p)
     {
-        add(out, "{}", n + 1);
-        for (std::size_t k = 0; k < std::size_t(mesh.dim); ++k)
-            add(out, " {}", mesh.elements[n][k] + 1);
-        out += '\n';
+        add(out, "{} {} {} {}\n", entity, p + 1, entity, parts[p].size());
+        for (const std::size_t n : parts[p])
+        {
+            add(out, "{}", n + 1);
+            for (std::size_t k = 0; k < std::size_t(mesh.dim); ++k)
+                add(out, " {}", mesh.elements[n][k] + 1);
+            out += '\n';
+        }
     }
     out += "$EndElements\n";
     return out;

@@ -3,7 +3,8 @@
 ///
 ///     .stl    triangles (3D alone), binary, single precision; without fields
 ///     .vtp    VTK PolyData, XML: lines in 2D, polygons in 3D, with fields at vertices
-///     .msh    gmsh 4.1, ASCII: lines or triangles, one physical group of the surface's name; without fields
+///     .msh    gmsh 4.1, ASCII: lines or triangles, one physical group of the surface's name, a curve or surface for
+///             each piece that hangs together; without fields
 ///
 /// Coordinates of .vtp and .msh come back bit by bit (coupling/readSurfaceMesh.hpp, case/readSurface.hpp). A file is
 /// written under another name and renamed, so that nobody reads half of one. (Formats: StL, M. Burns 1993, Automated

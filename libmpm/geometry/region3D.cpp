@@ -278,4 +278,27 @@ void Region3D::Body::sweepLayer(const std::string& name, const BoxTiling& tiling
             visit(Index(j), layer, parts);
     }
 }
+
+std::vector<std::size_t> cuttingTriangles(const std::vector<Vector3>& points, const std::vector<Simplex>& triangles)
+{
+    Mesh mesh;
+    for (const Vector3& p : points)
+        mesh.add_vertex({p[0], p[1], p[2]});
+    const auto vertex = [](int v) { return Mesh::Vertex_index(Mesh::size_type(v)); };
+    for (const Simplex& t : triangles)
+        mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+    std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> cuts;
+    PMP::self_intersections(mesh, std::back_inserter(cuts));
+    std::vector<std::size_t> found;
+    for (const auto& [a, b] : cuts)
+        found.insert(found.end(), {std::size_t(a), std::size_t(b)});
+    for (const auto f : mesh.faces())
+    {
+        const auto h = mesh.halfedge(f);
+        if (CGAL::collinear(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                            mesh.point(mesh.target(mesh.next(h)))))
+            found.push_back(std::size_t(f));
+    }
+    return found;
+}
 } // namespace mpm::geometry

@@ -29,4 +29,9 @@ class Region3D : public Region
     struct Body;
     std::unique_ptr<Body> body_;
 };
+
+/// Triangles, by index, that cut or touch another one away from what they share, or have no area: decided exactly.
+/// Empty for a surface Region3D takes; for surfaces made here, to mend them. The triangles close a surface, facing
+/// alike.
+std::vector<std::size_t> cuttingTriangles(const std::vector<Vector3>& points, const std::vector<Simplex>& triangles);
 } // namespace mpm::geometry

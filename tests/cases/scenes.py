@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from sceneCase import PROJECT, SceneCase  # noqa: E402
+from sceneCase import PROJECT, Run, SceneCase  # noqa: E402
 
 GRID, CONTROL = "system/gridDict", "system/controlDict"
 
@@ -107,8 +107,22 @@ def slopeUnderBaseMotion(scene):
     scene.books(run)
 
 
+def geometryPipeline(scene):
+    """The whole way once."""
+    control = (CONTROL, "endTime", 0.2)
+    run = scene.coarse(2, (GRID, "min", "(-0.128 -0.128 -0.032)"), (GRID, "max", "(0.384 0.32 0.16)"), control)
+    scene.require(run.utility("extractSurface", "-latestTime"))
+    scene.report.make_variants(run.folder)
+    again = Run(run.folder / "variants" / "again")
+    subprocess.run(["gmsh", "-3", "remesh.geo", "-o", "deformed.msh"], cwd=again.folder / "geometry", check=True, stdout=subprocess.DEVNULL)
+    scene.require(again.utility("seedParticles"))
+    for row in scene.report.measure(run.folder).rows:
+        if row["inside"]:
+            scene.check(f"{row['what']} ({row['measured']}, {row['expected']}) outside its band", float(row["inside"] != "yes"), "==", 0)
+
+
 SCENES = {function.__name__: function for function in (aluminiumRods, granularColumn3D, twoDiscs, discOnIncline, footingIntoClay,
-                                                       wallPushedIntoSand, slopeUnderBaseMotion)}
+                                                       wallPushedIntoSand, slopeUnderBaseMotion, geometryPipeline)}
 
 
 def main(names):

@@ -1,0 +1,169 @@
+// The closed surface of the deformed material at stored times, as STL (3D) and gmsh mesh: from particles back to
+// geometry.
+#include "base/error.hpp"
+#include "base/terminal.hpp"
+#include "case/application.hpp"
+#include "case/caseDirectory.hpp"
+#include "case/caseLock.hpp"
+#include "coupling/exportSurface.hpp"
+#include "dictionary/dictionary.hpp"
+#include "geometry/deformedSurface.hpp"
+#include "geometry/particleDomains.hpp"
+#include "output/stateFile.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+using namespace mpm;
+
+namespace
+{
+struct Choices
+{
+    std::string material; ///< "all", or one
+    Location materialWhere;
+    std::optional<double> alpha; ///< [cells]
+    double offset = 0;           ///< [cells]
+    geometry::SurfaceOptions surface;
+};
+
+Choices readChoices(const cases::CaseDirectory& here)
+{
+    using dictionary::Bound;
+    namespace unit = dictionary::unit;
+    const std::string name = "system/extractSurfaceDict";
+    const auto dict = here.hasFile(name) ? dictionary::Dictionary::readFile(here.dictionaryPath(name))
+                                         : dictionary::Dictionary::fromText("", "the defaults of " + name);
+    Choices made;
+    made.material = dict.get<std::string>({"material", "one material, or all", unit::none, {}, "all"});
+    made.materialWhere = dict.where("material");
+    if (dict.found("alpha"))
+        made.alpha = dict.get<double>({"alpha",
+                                       "gaps and hollows narrower than two of it are closed [cells]; default one "
+                                       "seeding spacing",
+                                       unit::none, Bound::between(0.05, 100)});
+    made.offset = dict.get<double>({"offset", "how closely a 3D surface is wrapped around the domains [cells]",
+                                    unit::none, Bound::between(0.001, 1), 0.0125});
+    const std::string pieces =
+        dict.choose("pieces", "what is done with material in several pieces",
+                    {{"one", "an error"}, {"largest", "it alone"}, {"all", "all of them"}}, "one");
+    made.surface.pieces = pieces == "one"       ? geometry::Pieces::one
+                          : pieces == "largest" ? geometry::Pieces::largest
+                                                : geometry::Pieces::all;
+    made.surface.matchVolume = dict.get<bool>(
+        {"matchVolume", "move the surface in until it encloses the particles' volume", unit::none, {}, true});
+    made.surface.volumeTolerance = dict.get<double>(
+        {"volumeTolerance", "how far the outline may be off the particles' volume before it is matched", unit::none,
+         Bound::positive(), made.surface.volumeTolerance});
+    dict.rejectUnread();
+    return made;
+}
+
+std::optional<int> chosenMaterial(const Choices& choices, const state::State& state)
+{
+    if (choices.material == "all")
+        return std::nullopt;
+    const auto found = std::find(state.materials.begin(), state.materials.end(), choices.material);
+    if (found != state.materials.end())
+        return int(found - state.materials.begin());
+    auto known = state.materials;
+    known.push_back("all");
+    const std::string near = nearestWord(choices.material, known);
+    throw InputError(choices.materialWhere,
+                     fmt::format("material: found '{}', allowed: {}{}", choices.material, joinWords(known),
+                                 near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
+}
+
+geometry::DeformedSurface surfaceOf(const cases::CaseDirectory& here, const std::string& time, Choices& choices)
+{
+    const auto state = output::readState(here.statePath(time));
+    auto& how = choices.surface;
+    how.cell = state.grid.h;
+    how.alpha = choices.alpha ? *choices.alpha * how.cell
+                              : *std::max_element(state.seedSpacing.begin(), state.seedSpacing.end());
+    how.offset = choices.offset * how.cell;
+    const auto domains = geometry::particleDomains(state.particles, chosenMaterial(choices, state));
+    try
+    {
+        return geometry::deformedSurface(domains, state.particles.dim, how);
+    }
+    catch (const InputError& error)
+    {
+        throw InputError({here.statePath(time).lexically_normal().string()},
+                         std::string(error.what()) + " (system/extractSurfaceDict)");
+    }
+}
+
+std::vector<std::filesystem::path> targets(const std::filesystem::path& folder, const std::string& time, int dim)
+{
+    std::vector<std::filesystem::path> files{folder / fmt::format("surface_{}.msh", time)};
+    if (dim == 3)
+        files.push_back(folder / fmt::format("surface_{}.stl", time));
+    return files;
+}
+
+void requireFree(const std::vector<std::filesystem::path>& files, bool overwrite)
+{
+    for (const auto& file : files)
+        if (!overwrite && std::filesystem::exists(file))
+            throw InputError({file.lexically_normal().string()}, "is there already; -overwrite replaces it");
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+    cases::ApplicationInfo info{"extractSurface", "the closed surface of the deformed material at stored times"};
+    info.usesTime = info.usesDryRun = info.usesOverwrite = true;
+    info.details =
+        "Writes postProcessing/surface_<time>.msh (gmsh 4.1; in 2D its loops) and, in 3D, surface_<time>.stl, and "
+        "prints the\n"
+        "volume they enclose against that of the particles. A .geo file that merges the .msh makes a body of it "
+        "again.\n"
+        "Reads system/extractSurfaceDict, if it is there: material (all), alpha (cells; gaps and hollows narrower than "
+        "two\n"
+        "of it are closed; default one seeding spacing), offset (cells, 3D; 0.0125), pieces (one | largest | all),\n"
+        "matchVolume (yes), volumeTolerance (0.15). Without -time or -latestTime: all stored times.";
+    return cases::runApplication(argc, argv, info, [](const cases::Options& options) {
+        const cases::CaseDirectory here(options.caseFolder);
+        const cases::CaseLock lock(options, "extractSurface");
+        const auto times = here.selectTimes(options.time, options.latestTime);
+        Choices choices = readChoices(here);
+        const int dim = output::readSummary(here.statePath(times[0].name)).dim;
+        for (const auto& time : times)
+            requireFree(targets(here.folder() / "postProcessing", time.name, dim), options.overwrite);
+        if (!options.dryRun)
+            here.requireWritable();
+        const char* const unit = dim == 2 ? "m2" : "m3";
+        Table table({"time", fmt::format("particles [{}]", unit), "outline", "off [%]",
+                     fmt::format("surface [{}]", unit), "off [%]", "moved in [m]", "pieces",
+                     dim == 2 ? "segments" : "triangles"});
+        std::vector<std::string> notes;
+        for (const auto& time : times)
+        {
+            const auto surface = surfaceOf(here, time.name, choices);
+            const auto off = [&](double volume) {
+                return fmt::format("{:.3f}", 100 * (volume / surface.particleVolume - 1));
+            };
+            table.row({time.name, fmt::format("{:.9g}", surface.particleVolume),
+                       fmt::format("{:.9g}", surface.outlineVolume), off(surface.outlineVolume),
+                       fmt::format("{:.9g}", surface.volume), off(surface.volume),
+                       fmt::format("{:.3g}", surface.movedIn), std::to_string(surface.pieces),
+                       std::to_string(surface.elements.size())});
+            for (const auto& note : surface.notes)
+                notes.push_back(fmt::format("  note: time {}: {}\n", time.name, note));
+            if (options.dryRun)
+                continue;
+            coupling::SurfaceMesh mesh{dim, surface.points, {}};
+            for (const auto& e : surface.elements)
+                mesh.elements.push_back({e[0], e[1], e[2]});
+            for (const auto& file : targets(here.postProcessing(), time.name, dim))
+                coupling::exportSurface(file, choices.material == "all" ? "surface" : choices.material, mesh);
+        }
+        fmt::print("extractSurface of {}\n{}", here.name(), table.text());
+        for (const auto& note : notes)
+            fmt::print("{}", note);
+        if (!options.dryRun)
+            fmt::print("wrote postProcessing/surface_<time>{}\n", dim == 2 ? ".msh" : ".msh and .stl");
+        return 0;
+    });
+}
