@@ -38,7 +38,8 @@ void say(const std::string& text)
 } // namespace
 
 CoupledCase::CoupledCase(const cases::Options& options)
-    : folder_(options.caseFolder), soil_(options.caseFolder, {}, options.threads), coupling_(readCoupling(folder_, soil_))
+    : folder_(options.caseFolder), soil_(options.caseFolder, {}, options.threads),
+      coupling_(readCoupling(folder_, soil_))
 {}
 
 void CoupledCase::banner() const
@@ -68,10 +69,9 @@ void CoupledCase::accepted(const AcceptedWindow& window)
     last_ = window;
     iterations_ += window.iterations;
     if (progress_ && progress_->due(window.time))
-        progress_->update(window.time, fmt::format("window {}  {} substeps{}", window.windows, window.substeps,
-                                                   window.iterations > 1
-                                                       ? fmt::format("  {} iterations", window.iterations)
-                                                       : ""));
+        progress_->update(window.time,
+                          fmt::format("window {}  {} substeps{}", window.windows, window.substeps,
+                                      window.iterations > 1 ? fmt::format("  {} iterations", window.iterations) : ""));
 }
 
 int CoupledCase::summary()
@@ -111,8 +111,9 @@ void CoupledCase::rescue(int signal)
 void CoupledCase::broken(const StepError& error)
 {
     progress_.reset();
-    throw StepError(fmt::format("{}; the last accepted window is in {}/state.h5 (startFrom latestTime goes on from there)",
-                                error.what(), latest()));
+    throw StepError(
+        fmt::format("{}; the last accepted window is in {}/state.h5 (startFrom latestTime goes on from there)",
+                    error.what(), latest()));
 }
 
 std::optional<double> maxTime(const std::filesystem::path& config)

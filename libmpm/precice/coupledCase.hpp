@@ -2,8 +2,8 @@
 /// What mpmCouple does beside the library: the case as a participant, its part of couplingDict, what is said on the way
 /// and at the end. run() works with any coupling library.
 ///
-/// Errors: InputError for what is written wrongly; StepError, one line, when the partner is gone or the soil cannot go on:
-/// the last accepted window is on disk then and named.
+/// Errors: InputError for what is written wrongly; StepError, one line, when the partner is gone or the soil cannot go
+/// on: the last accepted window is on disk then and named.
 #include "base/terminal.hpp"
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"

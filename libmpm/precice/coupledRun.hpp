@@ -117,9 +117,10 @@ class CoupledRun
         const int there = ask([&] { return library_.getDataDimensions(link.mesh, data.data); });
         const int here = componentsOf(data.quantity, dim);
         if (there != here)
-            throw InputError(data.where, fmt::format("{}: found {} data '{}' in preCICE's configuration, allowed {} in {}D",
-                                                     quantityWord(data.quantity), there == 1 ? "scalar" : "vector",
-                                                     data.data, here == 1 ? "scalar" : "vector", dim));
+            throw InputError(data.where,
+                             fmt::format("{}: found {} data '{}' in preCICE's configuration, allowed {} in {}D",
+                                         quantityWord(data.quantity), there == 1 ? "scalar" : "vector", data.data,
+                                         here == 1 ? "scalar" : "vector", dim));
     }
 
     void setMesh(const SurfaceLink& link)
@@ -127,9 +128,10 @@ class CoupledRun
         const int dim = soil_.dimension();
         const int there = ask([&] { return library_.getMeshDimensions(link.mesh); });
         if (there != dim)
-            throw InputError(link.where, fmt::format("mesh {}: found {} dimensions in preCICE's configuration, allowed {} as "
-                                                     "in system/gridDict",
-                                                     link.mesh, there, dim));
+            throw InputError(link.where,
+                             fmt::format("mesh {}: found {} dimensions in preCICE's configuration, allowed {} as "
+                                         "in system/gridDict",
+                                         link.mesh, there, dim));
         for (const auto* list : {&link.read, &link.write})
             for (const DataLink& data : *list)
                 requireComponents(link, data, dim);

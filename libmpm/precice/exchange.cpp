@@ -38,8 +38,8 @@ std::vector<FieldValues> rigidFields(int dim, const Vector3& reference, const st
     std::vector<FieldValues> out;
     if (read.count(Quantity::Displacement) || read.count(Quantity::Rotation))
     {
-        const auto pose = poseOf(reference, vectorOf(Quantity::Displacement, dim, read),
-                                 vectorOf(Quantity::Rotation, dim, read));
+        const auto pose =
+            poseOf(reference, vectorOf(Quantity::Displacement, dim, read), vectorOf(Quantity::Rotation, dim, read));
         out.push_back({FieldName::RigidPose, Values(pose.begin(), pose.end())});
     }
     if (read.count(Quantity::Velocity) || read.count(Quantity::AngularVelocity))

@@ -104,15 +104,15 @@ void readSurfaces(const Dictionary& d, const std::vector<KnownSurface>& known, P
         if (found == names.end())
         {
             const std::string near = nearestWord(name, names);
-            throw InputError(d.where(name),
-                             fmt::format("found the surface {}, allowed {} of surfaces in this file{}", name,
-                                         names.empty() ? "those" : joinWords(names, " and "),
-                                         near.empty() ? "" : " (did you mean '" + near + "'?)"));
+            throw InputError(d.where(name), fmt::format("found the surface {}, allowed {} of surfaces in this file{}",
+                                                        name, names.empty() ? "those" : joinWords(names, " and "),
+                                                        near.empty() ? "" : " (did you mean '" + near + "'?)"));
         }
         auto link = readSurfaceLink(d.subDict(name, "a coupling surface"), known[std::size_t(found - names.begin())]);
         for (const auto& other : out.surfaces)
             if (other.mesh == link.mesh)
-                d.subDict(name).fail("mesh", fmt::format("{}, which is the mesh of {} already", link.mesh, other.surface),
+                d.subDict(name).fail("mesh",
+                                     fmt::format("{}, which is the mesh of {} already", link.mesh, other.surface),
                                      "a mesh of its own for each surface");
         out.surfaces.push_back(std::move(link));
     }
@@ -155,10 +155,10 @@ PreciceCoupling readPrecice(const Dictionary& couplingDict, const std::filesyste
             {"maxStep", "time between two exchanges, at most", dictionary::unit::time, Bound::positive()});
     out.samples = d.get<Index>(
         {"samples", "times a step at which what is read is looked up", {}, Bound::between(1, 1000), Index(1)});
-    out.windowAverage = d.choose("forces", "what is written as Force, Torque and Traction",
-                                 {{"windowAverage", "impulse of the step over its length"},
-                                  {"instantaneous", "those at its end"}},
-                                 "windowAverage") == "windowAverage";
+    out.windowAverage =
+        d.choose("forces", "what is written as Force, Torque and Traction",
+                 {{"windowAverage", "impulse of the step over its length"}, {"instantaneous", "those at its end"}},
+                 "windowAverage") == "windowAverage";
     readSurfaces(d.subDict("surfaces", "what is exchanged on which surface"), known, out);
     d.rejectUnread();
     return out;

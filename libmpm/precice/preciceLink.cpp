@@ -3,8 +3,8 @@
 #include "base/error.hpp"
 
 #include <fmt/format.h>
-#include <precice/Tooling.hpp>
 #include <precice/precice.hpp>
+#include <precice/Tooling.hpp>
 
 namespace mpm::precice
 {

@@ -26,16 +26,15 @@ SpringWallProperties checked(const SpringWallProperties& p)
 } // namespace
 
 SpringWall::SpringWall(const SpringWallProperties& properties, const State& start, double tolerance)
-    : properties_(checked(properties)), state_(start), ode_(4, tolerance, 1e-3 * tolerance,
-                                                            [this](double t, const double* y, double* rate) {
-                                                                const auto& [m, c, k] = properties_;
-                                                                const double force =
-                                                                    std::lerp(first_, last_, t / window_);
-                                                                rate[0] = y[1];
-                                                                rate[1] = (force - c * y[1] - k * y[0]) / m;
-                                                                rate[2] = force * y[1];
-                                                                rate[3] = c * y[1] * y[1];
-                                                            })
+    : properties_(checked(properties)), state_(start),
+      ode_(4, tolerance, 1e-3 * tolerance, [this](double t, const double* y, double* rate) {
+          const auto& [m, c, k] = properties_;
+          const double force = std::lerp(first_, last_, t / window_);
+          rate[0] = y[1];
+          rate[1] = (force - c * y[1] - k * y[0]) / m;
+          rate[2] = force * y[1];
+          rate[3] = c * y[1] * y[1];
+      })
 {}
 
 void SpringWall::advance(double window, double first, double last)
@@ -48,8 +47,7 @@ void SpringWall::advance(double window, double first, double last)
     // time and energies from the window's start: what a window does must not drown in what was before
     ode_.restart(0, {state_.position, state_.velocity, 0, 0});
     while (ode_.advance(window) != OdeSolver::Stop::end)
-    {
-    }
+    {}
     const auto& y = ode_.state();
     state_ = {state_.time + window, y[0], y[1], state_.work + y[2], state_.heat + y[3]};
 }

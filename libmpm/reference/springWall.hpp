@@ -29,14 +29,16 @@ struct SpringWallProperties
     double stiffness = 0; ///< k [N/m]
 };
 
+struct SpringWallState
+{
+    double time = 0, position = 0, velocity = 0; ///< x from where the spring is at rest [m]
+    double work = 0, heat = 0;                   ///< of the force, of the damper, so far [J]
+};
+
 class SpringWall
 {
   public:
-    struct State
-    {
-        double time = 0, position = 0, velocity = 0; ///< x from where the spring is at rest [m]
-        double work = 0, heat = 0;                   ///< of the force, of the damper, so far [J]
-    };
+    using State = SpringWallState;
 
     explicit SpringWall(const SpringWallProperties& properties, const State& start = {}, double tolerance = 1e-11);
 

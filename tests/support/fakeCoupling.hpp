@@ -1,6 +1,6 @@
 #pragma once
-// A coupling library and its peer in one object, and a soil of one freedom: what precice/coupledRun.hpp does with them can
-// be followed number by number.
+// A coupling library and its peer in one object, and a soil of one freedom: what precice/coupledRun.hpp does with them
+// can be followed number by number.
 #include "coupling/participant.hpp"
 #include "precice/couplingLibrary.hpp"
 
@@ -28,13 +28,12 @@ class FakeLibrary
 {
   public:
     double window = 0.5, end = 2;
-    int iterations = 1;    // of every window; 1: explicit
-    int dieInWindow = -1;  // the peer is gone when this window is advanced
+    int iterations = 1;   // of every window; 1: explicit
+    int dieInWindow = -1; // the peer is gone when this window is advanced
     bool initialData = true, connectivity = true;
     int meshDimensions = 2;
-    std::map<std::string, int> components = {{"Displacement", 2}, {"Rotation", 1}, {"Velocity", 2},
-                                             {"Force", 2},        {"Torque", 1},   {"Traction", 2},
-                                             {"ContactArea", 1}};
+    std::map<std::string, int> components = {{"Displacement", 2}, {"Rotation", 1}, {"Velocity", 2},   {"Force", 2},
+                                             {"Torque", 1},       {"Traction", 2}, {"ContactArea", 1}};
     std::map<std::string, std::vector<double>> coordinates;
     std::map<std::string, std::vector<int>> edges;
     std::map<std::string, std::vector<Written>> written;
@@ -127,8 +126,8 @@ class FakeLibrary
     int iteration_ = 0, windowNumber_ = 0;
 };
 
-// Pushes back with stiffness * x and remembers where it was pushed: sum of (x - old x)^2, so that another way to the same
-// place is another state.
+// Pushes back with stiffness * x and remembers where it was pushed: sum of (x - old x)^2, so that another way to the
+// same place is another state.
 class FakeSoil
 {
   public:
@@ -180,7 +179,7 @@ class FakeSoil
         now.time += step;
         now.force = -stiffness * now.x - now.path;
         now.mean = -stiffness * 0.5 * (now.x + before) - now.path;
-        return {now.time, 3};
+        return {now.time, 3, mpm::coupling::Status::reached, ""};
     }
     void readField(const std::string&, FieldName, std::span<double> out) const { fill(out, now.force); }
     void windowAverage(const std::string&, FieldName, std::span<double> out) const { fill(out, now.mean); }

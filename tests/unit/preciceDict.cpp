@@ -22,16 +22,17 @@ PreciceCoupling read(const std::string& text)
     return readPrecice(dictionary::Dictionary::fromText(text, "couplingDict"), folder.path(), known);
 }
 
-std::string coupling(const std::string& words, const std::string& surface)
+std::string dictText(const std::string& words, const std::string& surface)
 {
-    return fmt::format("surfaces {{ }}\npreciceCoupling\n{{\nconfig \"precice-config.xml\"; {}\nsurfaces {{\n{}\n}}\n}}\n",
-                       words, surface);
+    return fmt::format(
+        "surfaces {{ }}\npreciceCoupling\n{{\nconfig \"precice-config.xml\"; {}\nsurfaces {{\n{}\n}}\n}}\n", words,
+        surface);
 }
 } // namespace
 
 TEST_CASE("defaults, and data by other names")
 {
-    const auto plain = read(coupling("", "wall { read (Displacement); }"));
+    const auto plain = read(dictText("", "wall { read (Displacement); }"));
     CHECK(plain.participant == "Soil");
     CHECK_FALSE(plain.maxStep);
     CHECK(plain.samples == 1);
@@ -40,7 +41,7 @@ TEST_CASE("defaults, and data by other names")
     CHECK(plain.surfaces[0].mesh == "wall");
     CHECK(plain.surfaces[0].read[0].data == "Displacement");
 
-    const auto all = read(coupling("participant Ground; maxStep 1e-3; samples 3; forces instantaneous;",
+    const auto all = read(dictText("participant Ground; maxStep 1e-3; samples 3; forces instantaneous;",
                                    "wall { mesh W; write { Force ForceOfSoil; Torque M; } }\n"
                                    "blade { read (Velocity Displacement); write (Traction); }"));
     CHECK(all.participant == "Ground");
@@ -55,7 +56,7 @@ TEST_CASE("defaults, and data by other names")
 TEST_CASE("what is refused, where, and what is allowed")
 {
     const auto refused = [](const std::string& words, const std::string& surface, const auto& says) {
-        CHECK_THROWS_WITH(read(coupling(words, surface)), says);
+        CHECK_THROWS_WITH(read(dictText(words, surface)), says);
     };
     const std::string good = "wall { read (Displacement); }";
     refused("", "", Contains("surfaces: found none, allowed wall or blade"));
@@ -64,7 +65,8 @@ TEST_CASE("what is refused, where, and what is allowed")
     refused("", "wall { read (Displacment); }", Contains("did you mean 'Displacement'?"));
     refused("", "wall { read (Traction); }",
             Contains("allowed Displacement, Rotation, Velocity and AngularVelocity for a Rigid surface"));
-    refused("", "blade { write (Torque); }", Contains("allowed Force, Traction and ContactArea for a Deformable surface"));
+    refused("", "blade { write (Torque); }",
+            Contains("allowed Force, Traction and ContactArea for a Deformable surface"));
     refused("", "wall { write (Force Force); }", Contains("found Force twice, allowed each once"));
     refused("", "wall { write { Force F; Torque F; } }", Contains("found F twice"));
     refused("", "wall { mesh M; write (Force); } blade { mesh M; write (Force); }",

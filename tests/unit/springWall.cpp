@@ -12,7 +12,8 @@ using reference::SpringWall;
 
 namespace
 {
-// x(t), v(t) of m x'' + c x' + k x = a + b t from x0, v0 (underdamped): particular solution plus a decaying oscillation.
+// x(t), v(t) of m x'' + c x' + k x = a + b t from x0, v0 (underdamped): particular solution plus a decaying
+// oscillation.
 struct Oscillator
 {
     double m, c, k, a, b, x0, v0;
