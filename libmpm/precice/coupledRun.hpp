@@ -137,7 +137,7 @@ class CoupledRun
                 requireComponents(link, data, dim);
         Mesh mesh;
         const bool rigid = link.kind == coupling::SurfaceKind::Rigid;
-        mesh.reference = rigid ? Vector3(soil_.referencePoint(link.surface)) : Vector3{};
+        mesh.reference = rigid ? Vector3(soil_.reference(link.surface)) : Vector3{};
         const coupling::SurfaceMesh surface =
             rigid ? coupling::SurfaceMesh{dim, {mesh.reference}, {}} : soil_.mesh(link.surface);
         std::vector<double> places;

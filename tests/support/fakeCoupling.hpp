@@ -149,7 +149,7 @@ class FakeSoil
     double farthest = 1e300; // beyond it, a sample is a jump
 
     int dimension() const { return 2; }
-    Vector3 referencePoint(const std::string&) const { return {4, 1, 0}; }
+    Vector3 reference(const std::string&) const { return {4, 1, 0}; }
     mpm::coupling::SurfaceMesh mesh(const std::string&) const
     {
         return {2, {{4, 0, 0}, {4, 1, 0}, {4, 2, 0}}, {{0, 1, -1}, {1, 2, -1}}};
