@@ -70,14 +70,14 @@ int run(const cases::Options& options)
     }
     if (!out.flush())
         throw InputError(file + ": cannot be written");
-    fmt::print("springWall: {:g} s, wall at {:.6f} m, {} iterations\n", wall.state().time, wall.state().position, iterations);
+    fmt::print("wallMaster: {:g} s, wall at {:.6f} m, {} iterations\n", wall.state().time, wall.state().position, iterations);
     return 0;
 }
 } // namespace
 
 int main(int argc, char** argv)
 {
-    cases::ApplicationInfo info{"springWall", "a wall on a spring, integrated by CVODE, that soil pushes"};
+    cases::ApplicationInfo info{"wallMaster", "a wall on a spring, integrated by CVODE, that soil pushes"};
     info.usesThreads = true;
     info.options = {{"socket", "PATH", "the soil is soilServer, at this Unix socket"},
                     {"fmu", "DIR", "the soil is an FMU, unpacked there (exportFMU); without both it is the case itself"},
