@@ -1,11 +1,11 @@
 #pragma once
-/// Wall and soil, window by window. The wall (mpm::reference::SpringWall) is pushed by the mean force of a window, the soil
-/// meets the wall where it is at the window's end.
+/// Wall and soil, window by window. The wall (mpm::reference::SpringWall) is pushed by the mean force of a window, the
+/// soil meets the wall where it is at the window's end.
 ///
 /// explicit   the wall goes first, with the force of the window before; then the soil. Once each.
 ///            The force is a window late: first order, and unstable for a wall that is light against the soil it must
-///            take along in a window (P. Causin, J. F. Gerbeau & F. Nobile 2005, Comput. Methods Appl. Mech. Eng. 194: the
-///            added mass).
+///            take along in a window (P. Causin, J. F. Gerbeau & F. Nobile 2005, Comput. Methods Appl. Mech. Eng. 194:
+///            the added mass).
 /// implicit   x -> soil -> F -> wall -> x~ is repeated from the window's start until x~ = x to `tolerance`:
 ///                x <- x + omega r,   r = x~ - x,   omega <- -omega r_old/(r - r_old)
 ///            (Aitken; U. Kuettler & W. A. Wall 2008, Comput. Mech. 43, 61-72, Eq. 44). For one freedom this is the
@@ -28,11 +28,11 @@ struct Scheme
 
 struct Row
 {
-    double time, force;      ///< [s], mean force on the wall [N/m]
-    double soilWork;         ///< of the wall on the soil since the start [J/m]
-    double soilImpulse;      ///< of the soil on the wall since the start, as the soil counts it [N s/m]
-    double wallImpulse;      ///< as the wall got it
-    double mismatch;         ///< |x~ - x| in the end [m]
+    double time, force; ///< [s], mean force on the wall [N/m]
+    double soilWork;    ///< of the wall on the soil since the start [J/m]
+    double soilImpulse; ///< of the soil on the wall since the start, as the soil counts it [N s/m]
+    double wallImpulse; ///< as the wall got it
+    double mismatch;    ///< |x~ - x| in the end [m]
     int iterations;
 };
 

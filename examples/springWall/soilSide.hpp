@@ -7,8 +7,8 @@
 ///                  Unix socket
 ///     fmu          an unpacked FMU of the case (FMI 3.0 Co-Simulation)      soilByFmu.cpp
 ///
-/// The soil's surface is rigid and called `wall`; it moves along x. Its reference point is the origin (`reference (0 0 0);`
-/// in system/couplingDict), so that the place of a pose is the wall's displacement.
+/// The soil's surface is rigid and called `wall`; it moves along x. Its reference point is the origin (`reference (0 0
+/// 0);` in system/couplingDict), so that the place of a pose is the wall's displacement.
 #include <filesystem>
 #include <memory>
 #include <stdexcept>

@@ -2,7 +2,8 @@
 //
 //     wallForPrecice CONFIG MASS DAMPING STIFFNESS OUTPUT
 //
-// Participant Wall, mesh WallMesh (one vertex): reads Force, writes Displacement (and Rotation, 0). Steps of a whole window.
+// Participant Wall, mesh WallMesh (one vertex): reads Force, writes Displacement (and Rotation, 0). Steps of a whole
+// window.
 #include "reference/springWall.hpp"
 
 #include <cstdlib>
@@ -16,8 +17,7 @@ namespace
 {
 int couple(char** arguments)
 {
-    mpm::reference::SpringWall wall(
-        {std::atof(arguments[2]), std::atof(arguments[3]), std::atof(arguments[4])});
+    mpm::reference::SpringWall wall({std::atof(arguments[2]), std::atof(arguments[3]), std::atof(arguments[4])});
     std::ofstream out(arguments[5]);
     out << "time,x,v,force,iterations\n";
     precice::Participant participant("Wall", arguments[1], 0, 1);

@@ -29,11 +29,20 @@
 
 namespace mpm::precice
 {
-/// The library threw: its first line.
+/// The library threw: its first line, without the full stop.
 class PeerLost : public StepError
 {
   public:
-    explicit PeerLost(const std::string& what) : StepError("preCICE: " + what.substr(0, what.find('\n'))) {}
+    explicit PeerLost(const std::string& what) : StepError("preCICE: " + firstLine(what)) {}
+
+  private:
+    static std::string firstLine(std::string text)
+    {
+        text.resize(std::min(text.size(), text.find('\n')));
+        while (!text.empty() && (text.back() == '.' || text.back() == ' '))
+            text.pop_back();
+        return text;
+    }
 };
 
 struct AcceptedWindow

@@ -122,7 +122,7 @@ TEST_CASE("the peer dies: one line, and the last accepted window on disk")
     FakeLibrary library;
     library.iterations = GENERATE(1, 3);
     library.dieInWindow = 2;
-    CHECK_THROWS_WITH(run(soil, library, rigidWall()), "preCICE: Receiving data from another participant failed.");
+    CHECK_THROWS_WITH(run(soil, library, rigidWall()), "preCICE: Receiving data from another participant failed");
     CHECK(soil.finalizes == 1);
     CHECK(soil.onDisk.time == 1);
     CHECK_FALSE(library.finalized); // nobody is there to speak to
