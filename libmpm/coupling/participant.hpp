@@ -152,10 +152,11 @@ class Participant
     /// Numbers writeField and readField exchange for a field: components, times vertices.
     std::size_t valueCount(const std::string& surface, FieldName field) const;
     double time() const;
-    /// The largest step the scheme may take now [s].
-    double stableTimeStep() const;
 
     // from initialize() on
+
+    /// The largest step the scheme may take now [s].
+    double stableTimeStep() const;
 
     void writeField(const std::string& surface, FieldName field, std::span<const double> values,
                     double relativeTime = 0);

@@ -41,6 +41,15 @@ std::vector<std::byte> takeBlock(std::span<const std::byte>& bytes)
     return {block.begin(), block.end()};
 }
 
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo; RFC 9923): a changed byte changes it.
+std::uint64_t checksum(std::span<const std::byte> bytes)
+{
+    std::uint64_t sum = 0xcbf29ce484222325u;
+    for (const auto b : bytes)
+        sum = (sum ^ std::uint64_t(b)) * 0x100000001b3u;
+    return sum;
+}
+
 std::string hexadecimal(std::span<const std::byte> bytes)
 {
     std::string out;
@@ -142,6 +151,7 @@ void Participant::restoreState(const Snapshot& snapshot)
 }
 
 std::vector<std::byte> Participant::serialise(const Snapshot& snapshot) const
+try
 {
     if (snapshot.empty())
         throw CouplingError(Fault::badState, "found an empty snapshot; allowed is one that saveState() made");
@@ -156,14 +166,25 @@ std::vector<std::byte> Participant::serialise(const Snapshot& snapshot) const
     for (const auto& block : snapshot.held_->surfaces)
         putBlock(block);
     putBlock(output::stateBytes(snapshot.held_->state));
+    putBytes(out, checksum(out));
     return out;
+}
+catch (const InputError& error)
+{
+    throw CouplingError(Fault::files, error.what());
 }
 
 Snapshot Participant::deserialise(std::span<const std::byte> bytes) const
 try
 {
+    auto last = bytes.last(std::min(bytes.size(), sizeof(std::uint64_t)));
+    const auto content = bytes.first(bytes.size() - last.size());
     if (takeText(bytes) != heading)
         throw CouplingError(Fault::badState, "found bytes that are no snapshot of this version");
+    if (takeBytes<std::uint64_t>(last) != checksum(content))
+        throw CouplingError(Fault::badState,
+                            "found bytes that have changed since they were made: their checksum differs");
+    bytes = bytes.first(bytes.size() - sizeof(std::uint64_t));
     auto held = std::make_shared<HeldState>();
     const auto lifecycle = takeBytes<std::int32_t>(bytes);
     if (lifecycle != int(Lifecycle::Initialized) && lifecycle != int(Lifecycle::Stepping))
