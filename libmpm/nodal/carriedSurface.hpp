@@ -5,7 +5,7 @@
 ///
 /// N: hat functions, renormalised over nodes with mass (nodal/pointWeights.hpp). A point that the soil has left goes on
 /// at its last velocity; one that carries a load there is a StepError. Somebody sets the forces between two steps.
-/// Verified in tests/unit/carriedSurface.cpp.
+/// Verified in tests/unit/participant.cpp.
 #include "state/gridBox.hpp"
 #include "state/tileGrid.hpp"
 

@@ -46,6 +46,7 @@ class ContactBody
 /// A body whose points move each for itself: between two steps somebody says where they are, and their mean velocities
 /// in the coming step. The velocity at a point of the surface is that of its element's points by the weights there, and
 /// impulses go back to the points by the same weights, so that sum of impulse . velocity over points is the work done.
+/// Verified in tests/unit/participant.cpp.
 class DeformableBody : public ContactBody
 {
   public:

@@ -166,6 +166,75 @@ TEST_CASE("a deformable surface moved as a whole does what a rigid one does")
     REQUIRE(b.contactArea == Approx(a.contactArea).epsilon(1e-12));
 }
 
+TEST_CASE("forces at the vertices of a bending wall do the work the soil sees")
+{
+    const TemporaryFolder folder;
+    CoupledCase{}.write(folder.path());
+    auto p = pushed(folder.path(), SurfaceKind::Deformable);
+    pushOn(p, 0.09); // to the block
+    double work = 0, force = 0;
+    for (int n = 0; n < 50; ++n)
+    {
+        const double before = p.interfaceWork("wall"), t = p.time() + dt;
+        const double push = 0.09 + 2 * (t - 0.09), lean = 0.5 * (t - 0.09);
+        p.writeField("wall", FieldName::Displacement,
+                     std::vector<double>{push, 0, 0, push, 0, 0, push + lean, lean, 0, push + lean, 0, 0}, dt);
+        REQUIRE(p.advance(dt).substeps == 1);
+        std::vector<double> forces(12);
+        p.readField("wall", FieldName::Force, forces);
+        const double velocity[12] = {2, 0, 0, 2, 0, 0, 2.5, 0.5, 0, 2.5, 0, 0};
+        double power = 0;
+        for (std::size_t k = 0; k < 12; ++k)
+            power -= forces[k] * velocity[k];
+        REQUIRE(p.interfaceWork("wall") - before == Approx(power * dt).epsilon(1e-9).margin(1e-12));
+        work += power * dt;
+        force -= p.resultants("wall").force[0];
+    }
+    REQUIRE(work > 1);
+    REQUIRE(force > 0);
+    REQUIRE(std::abs(p.balance().residual) < 1e-10 * work);
+}
+
+TEST_CASE("in 3D a box of triangles pushes a block")
+{
+    const TemporaryFolder folder;
+    CoupledCase solid;
+    solid.dim = 3;
+    solid.write(folder.path());
+    SurfaceMesh mesh{3, {}, {}};
+    for (int k = 0; k < 8; ++k) // 0.4..0.9 x 0.25..1.25 x 0.25..1.25
+        mesh.vertices.push_back({k & 1 ? 0.9 : 0.4, k & 2 ? 1.25 : 0.25, k & 4 ? 1.25 : 0.25});
+    mesh.elements = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    const auto kind = GENERATE(SurfaceKind::Rigid, SurfaceKind::Deformable);
+    Participant p(folder.path());
+    p.addCouplingSurface("wall", mesh, kind);
+    p.initialize();
+    Vector3 impulse{};
+    for (int n = 1; n <= 8; ++n)
+    {
+        const double s = 0.02 * n;
+        std::vector<double> moved{0.65 + s, 0.75, 0.75, 1, 0, 0, 0}, offset;
+        for (int k = 0; k < 8; ++k)
+            offset.insert(offset.end(), {s, 0.0, 0.0});
+        if (kind == SurfaceKind::Rigid)
+            p.writeField("wall", FieldName::RigidPose, moved, 16 * dt);
+        else
+            p.writeField("wall", FieldName::Displacement, offset, 16 * dt);
+        p.advance(16 * dt);
+        for (std::size_t a = 0; a < 3; ++a)
+            impulse[a] += p.resultants("wall").impulse[a];
+    }
+    const auto end = p.balance();
+    REQUIRE(end.momentum[0] > 1);
+    REQUIRE(end.momentum[0] == Approx(-impulse[0]).epsilon(1e-12));
+    REQUIRE(std::abs(end.residual) < 1e-10 * end.interfaceWork);
+    std::vector<double> traction(24);
+    p.readField("wall", FieldName::Traction, traction);
+    REQUIRE(traction[3] <= 0); // on the face at the block the soil pushes back
+    REQUIRE(p.resultants("wall").contactArea == Approx(0.25).margin(0.2)); // 0.5 m x 0.5 m, to a cell at its edges
+}
+
 TEST_CASE("a monitor goes with the soil, and loads it with what is written")
 {
     const TemporaryFolder folder;
