@@ -302,6 +302,7 @@ GROUPS = [
         solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
     ]),
+
     ("An FMU", [
         Entry("a case without coupling surfaces", "exportFMU"),
         Entry("a case without a state", "exportFMU", seeded=False),
@@ -309,5 +310,16 @@ GROUPS = [
         Entry("an FMU of a time that is not stored", "exportFMU -time 7"),
         Entry("an FMU of two times", "exportFMU -time 0:1", lambda case: shutil.copytree(case / "0", case / "1")),
         Entry("an FMU where there is no folder", "exportFMU -output nowhere/column.fmu"),
+    ]),
+    ("Surfaces of deformed material", [
+        Entry("a material the state has none of", "extractSurface", write(SURFACE, "material clay;\n")),
+        Entry("a word misspelt", "extractSurface", write(SURFACE, "ofset 0.01;\n")),
+        Entry("a ball of no size", "extractSurface", write(SURFACE, "alpha 0;\n")),
+        Entry("a wish for pieces nobody knows", "extractSurface", write(SURFACE, "pieces two;\n")),
+        Entry("a tolerance that is none", "extractSurface", write(SURFACE, "volumeTolerance 0;\n")),
+        Entry("material in two pieces", "extractSurface", state(torn)),
+        Entry("particles too sparse for a surface", "extractSurface", both(write(SURFACE, "alpha 0.1;\n"), state(scattered))),
+        Entry("a surface that is there already", "extractSurface", write("postProcessing/surface_0.msh", "mine\n")),
+        Entry("a state of one's own to watch over", "seedParticles -watch"),
     ]),
 ] + EFFECTS

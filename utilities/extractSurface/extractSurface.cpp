@@ -5,6 +5,7 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/caseLock.hpp"
+#include "coupling/couplingError.hpp"
 #include "coupling/exportSurface.hpp"
 #include "dictionary/dictionary.hpp"
 #include "geometry/deformedSurface.hpp"
@@ -108,6 +109,23 @@ void requireFree(const std::vector<std::filesystem::path>& files, bool overwrite
         if (!overwrite && std::filesystem::exists(file))
             throw InputError({file.lexically_normal().string()}, "is there already; -overwrite replaces it");
 }
+
+void write(const cases::CaseDirectory& here, const std::string& time, const std::string& material,
+           const geometry::DeformedSurface& surface)
+{
+    coupling::SurfaceMesh mesh{surface.dim, surface.points, {}};
+    for (const auto& e : surface.elements)
+        mesh.elements.push_back({e[0], e[1], e[2]});
+    try
+    {
+        for (const auto& file : targets(here.postProcessing(), time, surface.dim))
+            coupling::exportSurface(file, material == "all" ? "surface" : material, mesh);
+    }
+    catch (const coupling::CouplingError& error)
+    {
+        throw InputError(error.what()); // a folder or disk that takes no file
+    }
+}
 } // namespace
 
 int main(int argc, char** argv)
@@ -138,9 +156,10 @@ int main(int argc, char** argv)
                      fmt::format("surface [{}]", unit), "off [%]", "moved in [m]", "pieces",
                      dim == 2 ? "segments" : "triangles"});
         std::vector<std::string> notes;
+        std::vector<geometry::DeformedSurface> surfaces; // all, before anything is written
         for (const auto& time : times)
         {
-            const auto surface = surfaceOf(here, time.name, choices);
+            const auto& surface = surfaces.emplace_back(surfaceOf(here, time.name, choices));
             const auto off = [&](double volume) {
                 return fmt::format("{:.3f}", 100 * (volume / surface.particleVolume - 1));
             };
@@ -151,14 +170,9 @@ int main(int argc, char** argv)
                        std::to_string(surface.elements.size())});
             for (const auto& note : surface.notes)
                 notes.push_back(fmt::format("  note: time {}: {}\n", time.name, note));
-            if (options.dryRun)
-                continue;
-            coupling::SurfaceMesh mesh{dim, surface.points, {}};
-            for (const auto& e : surface.elements)
-                mesh.elements.push_back({e[0], e[1], e[2]});
-            for (const auto& file : targets(here.postProcessing(), time.name, dim))
-                coupling::exportSurface(file, choices.material == "all" ? "surface" : choices.material, mesh);
         }
+        for (std::size_t i = 0; i < times.size() && !options.dryRun; ++i)
+            write(here, times[i].name, choices.material, surfaces[i]);
         fmt::print("extractSurface of {}\n{}", here.name(), table.text());
         for (const auto& note : notes)
             fmt::print("{}", note);
