@@ -201,7 +201,7 @@ def draw(case):
     axes.triplot(points[:, 0], points[:, 1], elements[2], "k-", linewidth=0.3)
     axes.set_aspect("equal")
     report.frame(axes, (-0.16, 0.34), (-0.01, 0.13), f"2D: 7 gmsh's mesh, {len(elements[2])} triangles")
-    report.save(figure, case / "stages.png", 130)
+    report.save(figure, case / "stages.png", 90)
 
 
 def sketch(case):

@@ -302,7 +302,6 @@ GROUPS = [
         solve("two folders of one time", lambda case: (os.mkdir(case / "0.0"),
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
     ]),
-
     ("An FMU", [
         Entry("a case without coupling surfaces", "exportFMU"),
         Entry("a case without a state", "exportFMU", seeded=False),
