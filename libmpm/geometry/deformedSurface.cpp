@@ -84,21 +84,18 @@ class Move
         return 0.5 * (least + most);
     }
 
-    /// Points of these elements, and those next to them, go less far: half as far, after a few times nowhere.
-    void holdBack(const std::vector<std::size_t>& elements)
+    /// Points of these elements, or of those next to them too, go less far: half as far, after a few times nowhere.
+    void holdBack(const std::vector<std::size_t>& elements, bool neighbours)
     {
-        std::vector<bool> held(share_.size(), false), near = held;
+        std::vector<bool> held(share_.size(), false);
         for (const std::size_t e : elements)
-            for (const int v : wrap_.elements[e])
-                if (v >= 0)
-                    held[std::size_t(v)] = true;
+            hold(wrap_.elements[e], held);
+        const auto first = held;
         for (const Simplex& s : wrap_.elements)
-            if (std::any_of(s.begin(), s.end(), [&](int v) { return v >= 0 && held[std::size_t(v)]; }))
-                for (const int v : s)
-                    if (v >= 0)
-                        near[std::size_t(v)] = true;
+            if (neighbours && std::any_of(s.begin(), s.end(), [&](int v) { return v >= 0 && first[std::size_t(v)]; }))
+                hold(s, held);
         for (std::size_t i = 0; i < share_.size(); ++i)
-            if (near[i])
+            if (held[i])
                 share_[i] = share_[i] > 0.2 ? 0.5 * share_[i] : 0;
     }
 
@@ -108,6 +105,13 @@ class Move
     }
 
   private:
+    static void hold(const Simplex& s, std::vector<bool>& held)
+    {
+        for (const int v : s)
+            if (v >= 0)
+                held[std::size_t(v)] = true;
+    }
+
     const Wrap& wrap_;
     std::vector<double> share_;
 };
@@ -298,15 +302,17 @@ DeformedSurface deformedSurface(const std::vector<ParticleDomain>& domains, int 
     made.particleVolume = volumeInside(domains, whole ? nullptr : checked(wrap.points, wrap.elements, dim).get());
     requireVolume(made, how);
 
-    double way = 0;
+    double way = 0, furthest = how.offset + how.alpha;
     for (int round = 0; round < 40; ++round)
     {
-        way = how.matchVolume ? move.wayTo(made.particleVolume, how.offset + how.alpha) : back;
+        way = how.matchVolume ? move.wayTo(made.particleVolume, furthest) : back;
+        if (round == 0)
+            furthest = std::min(furthest, 3 * std::abs(way)); // more is not asked of the points that may still move
         made.points = move.by(way);
         const auto cuts = cutting(made.points, wrap.elements, dim);
         if (cuts.empty())
             break;
-        move.holdBack(cuts);
+        move.holdBack(cuts, round >= 12);
     }
     if (const std::size_t held = move.heldBack(); 4 * held > wrap.points.size())
         made.notes.push_back(
