@@ -1,13 +1,17 @@
 // Surfaces of deformed material: closed, of the particles' volume, and refused by name where there is none.
 #include "geometry/deformedSurface.hpp"
 #include "base/error.hpp"
+#include "coupling/exportSurface.hpp"
+#include "geometry/bodyGeometry.hpp"
 #include "geometry/particleDomains.hpp"
 #include "geometry/region2D.hpp"
 #include "geometry/region3D.hpp"
+#include "support/temporaryFolder.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 
 using namespace mpm;
@@ -145,6 +149,30 @@ TEST_CASE("Holes wider than two alpha stay, and the boundary runs around them th
     wide.volumeTolerance = 0.1;
     CHECK_THROWS_WITH(geometry::deformedSurface(lattice(2, 12, frame), 2, wide),
                       Catch::Contains("+12.5 % off") && Catch::Contains("a smaller alpha"));
+}
+
+TEST_CASE("Through a file and gmsh the surface is the same body: a hole is a curve of its own")
+{
+    const auto frame = [](const Vector3& x) { return std::abs(x[0] - 0.3) > 0.1 || std::abs(x[1] - 0.3) > 0.1; };
+    const tests::TemporaryFolder folder;
+    for (const int dim : {2, 3})
+    {
+        const auto s = geometry::deformedSurface(
+            lattice(dim, dim == 2 ? 12 : 4, dim == 2 ? std::function<bool(const Vector3&)>(frame) : everywhere), dim,
+            options());
+        coupling::SurfaceMesh mesh{dim, s.points, {}};
+        for (const auto& e : s.elements)
+            mesh.elements.push_back({e[0], e[1], e[2]});
+        coupling::exportSurface(folder / "surface.msh", "sand", mesh);
+        std::ofstream(folder / "body.geo")
+            << "Merge \"surface.msh\";\n"
+            << (dim == 2 ? "Curve Loop(1) = {1};\nCurve Loop(2) = {2};\nPlane Surface(1) = {1, 2};\nPhysical "
+                           "Surface(\"sand\") = {1};\n"
+                         : "Surface Loop(1) = {1};\nVolume(1) = {1};\nPhysical Volume(\"sand\") = {1};\n");
+        const auto body = geometry::readGeometry(folder / "body.geo", dim);
+        REQUIRE(body.regions.size() == 1);
+        CHECK(body.regions[0]->volume() == Approx(s.volume).epsilon(1e-12));
+    }
 }
 
 TEST_CASE("Two pieces are an error that says where, or the larger one, or both")
