@@ -10,6 +10,7 @@
 #include "dictionary/dictionary.hpp"
 #include "geometry/deformedSurface.hpp"
 #include "geometry/particleDomains.hpp"
+#include "geometry/readSurfaceChoices.hpp"
 #include "output/stateFile.hpp"
 
 #include <algorithm>
@@ -19,48 +20,17 @@ using namespace mpm;
 
 namespace
 {
-struct Choices
+geometry::SurfaceChoices readChoices(const cases::CaseDirectory& here)
 {
-    std::string material; ///< "all", or one
-    Location materialWhere;
-    std::optional<double> alpha; ///< [cells]
-    double offset = 0;           ///< [cells]
-    geometry::SurfaceOptions surface;
-};
-
-Choices readChoices(const cases::CaseDirectory& here)
-{
-    using dictionary::Bound;
-    namespace unit = dictionary::unit;
     const std::string name = "system/extractSurfaceDict";
     const auto dict = here.hasFile(name) ? dictionary::Dictionary::readFile(here.dictionaryPath(name))
                                          : dictionary::Dictionary::fromText("", "the defaults of " + name);
-    Choices made;
-    made.material = dict.get<std::string>({"material", "one material, or all", unit::none, {}, "all"});
-    made.materialWhere = dict.where("material");
-    if (dict.found("alpha"))
-        made.alpha = dict.get<double>({"alpha",
-                                       "gaps and hollows narrower than two of it are closed [cells]; default one "
-                                       "seeding spacing",
-                                       unit::none, Bound::between(0.05, 100)});
-    made.offset = dict.get<double>({"offset", "how closely a 3D surface is wrapped around the domains [cells]",
-                                    unit::none, Bound::between(0.001, 1), 0.0125});
-    const std::string pieces =
-        dict.choose("pieces", "what is done with material in several pieces",
-                    {{"one", "an error"}, {"largest", "it alone"}, {"all", "all of them"}}, "one");
-    made.surface.pieces = pieces == "one"       ? geometry::Pieces::one
-                          : pieces == "largest" ? geometry::Pieces::largest
-                                                : geometry::Pieces::all;
-    made.surface.matchVolume = dict.get<bool>(
-        {"matchVolume", "move the surface in until it encloses the particles' volume", unit::none, {}, true});
-    made.surface.volumeTolerance = dict.get<double>(
-        {"volumeTolerance", "how far the outline may be off the particles' volume before it is matched", unit::none,
-         Bound::positive(), made.surface.volumeTolerance});
+    auto made = geometry::readSurfaceChoices(dict);
     dict.rejectUnread();
     return made;
 }
 
-std::optional<int> chosenMaterial(const Choices& choices, const state::State& state)
+std::optional<int> chosenMaterial(const geometry::SurfaceChoices& choices, const state::State& state)
 {
     if (choices.material == "all")
         return std::nullopt;
@@ -75,14 +45,11 @@ std::optional<int> chosenMaterial(const Choices& choices, const state::State& st
                                  near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
 }
 
-geometry::DeformedSurface surfaceOf(const cases::CaseDirectory& here, const std::string& time, Choices& choices)
+geometry::DeformedSurface surfaceOf(const cases::CaseDirectory& here, const std::string& time,
+                                    const geometry::SurfaceChoices& choices)
 {
     const auto state = output::readState(here.statePath(time));
-    auto& how = choices.surface;
-    how.cell = state.grid.h;
-    how.alpha = choices.alpha ? *choices.alpha * how.cell
-                              : *std::max_element(state.seedSpacing.begin(), state.seedSpacing.end());
-    how.offset = choices.offset * how.cell;
+    const auto how = choices.on(state.grid.h, *std::max_element(state.seedSpacing.begin(), state.seedSpacing.end()));
     const auto domains = geometry::particleDomains(state.particles, chosenMaterial(choices, state));
     try
     {
@@ -145,7 +112,7 @@ int main(int argc, char** argv)
         const cases::CaseDirectory here(options.caseFolder);
         const cases::CaseLock lock(options, "extractSurface");
         const auto times = here.selectTimes(options.time, options.latestTime);
-        Choices choices = readChoices(here);
+        const auto choices = readChoices(here);
         const int dim = output::readSummary(here.statePath(times[0].name)).dim;
         for (const auto& time : times)
             requireFree(targets(here.folder() / "postProcessing", time.name, dim), options.overwrite);
