@@ -6,6 +6,7 @@
 #include "geometry/particleDomains.hpp"
 #include "geometry/region2D.hpp"
 #include "geometry/region3D.hpp"
+#include "geometry/surfaceMove.hpp"
 #include "support/temporaryFolder.hpp"
 
 #include <catch2/catch.hpp>
@@ -218,6 +219,46 @@ TEST_CASE("Particles too sparse for alpha are named, and so is what is no domain
     sparse[3].edges[1][0] = std::nan("");
     CHECK_THROWS_WITH(geometry::deformedSurface(sparse, 2, options()), Catch::Contains("is not finite"));
     CHECK_THROWS_WITH(geometry::deformedSurface({}, 3, options()), Catch::Contains("no particles"));
+}
+
+TEST_CASE("A surface that cuts itself is noticed, and points that are held back keep their places")
+{
+    // two tetrahedra, the second moved by `way`: apart they cut nothing, into each other they do
+    const auto pair = [](double way) {
+        std::vector<Vector3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        for (int i = 0; i < 4; ++i)
+            points.push_back(
+                {points[std::size_t(i)][0] + way, points[std::size_t(i)][1] + 0.1, points[std::size_t(i)][2] + 0.1});
+        return points;
+    };
+    const std::vector<geometry::Simplex> tetrahedra = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2},
+                                                       {4, 6, 5}, {4, 5, 7}, {5, 6, 7}, {4, 7, 6}};
+    CHECK(geometry::enclosedVolume(pair(2), tetrahedra) == Approx(1.0 / 3));
+    CHECK(geometry::cuttingElements(pair(2), tetrahedra, 3).empty());
+    CHECK(!geometry::cuttingElements(pair(0.3), tetrahedra, 3).empty());
+    CHECK_THROWS_WITH(geometry::Region3D("it", pair(0.3), tetrahedra), Catch::Contains("cuts or touches itself"));
+
+    const std::vector<geometry::Simplex> loop = {{0, 1, -1}, {1, 2, -1}, {2, 3, -1}, {3, 0, -1}};
+    const std::vector<Vector3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+        bow{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    CHECK(geometry::cuttingElements(square, loop, 2).empty());
+    CHECK(geometry::cuttingElements(bow, loop, 2) == std::vector<std::size_t>{3, 1});
+
+    geometry::Wrap wrap;
+    wrap.points = square;
+    wrap.outward = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    wrap.elements = loop;
+    geometry::SurfaceMove move(wrap);
+    CHECK(move.wayTo(0.64, 0.5) == Approx(0.1));
+    move.holdBack({0}, false); // half as far: the lower side
+    CHECK(move.by(0.2)[0][1] == Approx(0.1));
+    CHECK(move.by(0.2)[2][1] == Approx(0.8));
+    for (int i = 0; i < 3; ++i)
+        move.holdBack({0}, false);
+    CHECK(move.by(0.2)[0] == square[0]);
+    CHECK(move.heldBack() == 2);
+    move.holdBack({0}, true);
+    CHECK(move.heldBack() == 4);
 }
 
 TEST_CASE("Domains of stored particles are the images of their boxes under F")
