@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "geometry/region2D.hpp"
 #include "geometry/region3D.hpp"
+#include "geometry/surfaceMove.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,132 +15,6 @@ namespace mpm::geometry
 namespace
 {
 using Points = std::vector<Vector3>;
-
-Vector3 difference(const Vector3& a, const Vector3& b)
-{
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3& a, const Vector3& b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Share of one element in the enclosed volume, seen from `origin`.
-double enclosed(const Points& p, const Simplex& s, const Vector3& origin)
-{
-    const Vector3 a = difference(p[std::size_t(s[0])], origin), b = difference(p[std::size_t(s[1])], origin);
-    return s[2] < 0 ? 0.5 * cross(a, b)[2] : dot(a, cross(b, difference(p[std::size_t(s[2])], origin))) / 6;
-}
-
-double enclosed(const Points& p, const std::vector<Simplex>& elements)
-{
-    long double sum = 0;
-    for (const Simplex& s : elements)
-        sum += enclosed(p, s, p[0]);
-    return double(sum);
-}
-
-double measure(const Points& p, const std::vector<Simplex>& elements)
-{
-    double sum = 0;
-    for (const Simplex& s : elements)
-    {
-        const Vector3 e = difference(p[std::size_t(s[1])], p[std::size_t(s[0])]);
-        const Vector3 n = s[2] < 0 ? e : cross(e, difference(p[std::size_t(s[2])], p[std::size_t(s[0])]));
-        sum += std::sqrt(dot(n, n)) * (s[2] < 0 ? 1 : 0.5);
-    }
-    return sum;
-}
-
-/// The points of a wrap on their way in; each takes its share of the way.
-class Move
-{
-  public:
-    explicit Move(const Wrap& wrap) : wrap_(wrap), share_(wrap.points.size(), 1.0) {}
-
-    Points by(double way) const
-    {
-        Points moved = wrap_.points;
-        for (std::size_t i = 0; i < moved.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                moved[i][k] -= way * share_[i] * wrap_.outward[i][k];
-        return moved;
-    }
-
-    /// The way that leaves `volume` enclosed; between -furthest and furthest.
-    double wayTo(double volume, double furthest) const
-    {
-        double least = -furthest, most = furthest;
-        for (int i = 0; i < 60; ++i)
-        {
-            const double middle = 0.5 * (least + most);
-            (enclosed(by(middle), wrap_.elements) > volume ? least : most) = middle;
-        }
-        return 0.5 * (least + most);
-    }
-
-    /// Points of these elements, and those next to them, go less far: half as far, after a few times nowhere.
-    void holdBack(const std::vector<std::size_t>& elements)
-    {
-        std::vector<bool> held(share_.size(), false), near = held;
-        for (const std::size_t e : elements)
-            for (const int v : wrap_.elements[e])
-                if (v >= 0)
-                    held[std::size_t(v)] = true;
-        for (const Simplex& s : wrap_.elements)
-            if (std::any_of(s.begin(), s.end(), [&](int v) { return v >= 0 && held[std::size_t(v)]; }))
-                for (const int v : s)
-                    if (v >= 0)
-                        near[std::size_t(v)] = true;
-        for (std::size_t i = 0; i < share_.size(); ++i)
-            if (near[i])
-                share_[i] = share_[i] > 0.2 ? 0.5 * share_[i] : 0;
-    }
-
-    std::size_t heldBack() const
-    {
-        return std::size_t(std::count_if(share_.begin(), share_.end(), [](double s) { return s < 1; }));
-    }
-
-  private:
-    const Wrap& wrap_;
-    std::vector<double> share_;
-};
-
-/// Do two segments without a common end meet? In floating point: the check of the body is exact.
-bool meet(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
-{
-    const auto side = [](const Vector3& p, const Vector3& q, const Vector3& r) {
-        return cross(difference(q, p), difference(r, p))[2];
-    };
-    for (std::size_t k = 0; k < 2; ++k)
-        if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k]))
-            return false;
-    return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
-}
-
-/// Elements that cut others.
-std::vector<std::size_t> cutting(const Points& points, const std::vector<Simplex>& elements, int dim)
-{
-    if (dim == 3)
-        return cuttingTriangles(points, elements);
-    std::vector<std::size_t> found;
-    const auto at = [&](int v) -> const Vector3& { return points[std::size_t(v)]; };
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-        {
-            const Simplex &s = elements[i], &t = elements[j];
-            if (s[0] != t[1] && s[1] != t[0] && meet(at(s[0]), at(s[1]), at(t[0]), at(t[1])))
-                found.insert(found.end(), {i, j});
-        }
-    return found;
-}
 
 /// Checks it as a body is checked; the loops of a wrap follow one another, each element begins where the last ended.
 std::unique_ptr<Region> checked(const Points& points, const std::vector<Simplex>& elements, int dim)
@@ -176,7 +51,7 @@ std::vector<double> pieceVolumes(const Wrap& wrap)
 {
     std::vector<double> volumes(std::size_t(wrap.pieces), 0.0);
     for (std::size_t i = 0; i < wrap.elements.size(); ++i)
-        volumes[std::size_t(wrap.piece[i])] += enclosed(wrap.points, wrap.elements[i], wrap.points[0]);
+        volumes[std::size_t(wrap.piece[i])] += enclosedVolume(wrap.points, wrap.elements[i], wrap.points[0]);
     return volumes;
 }
 
@@ -292,21 +167,23 @@ DeformedSurface deformedSurface(const std::vector<ParticleDomain>& domains, int 
 
     // A hair outside the domains, where the ways in of neighbours have not met yet.
     const double back = dim == 3 ? 0.98 * how.offset : 0;
-    Move move(wrap);
-    made.outlineVolume = enclosed(move.by(back), wrap.elements);
+    SurfaceMove move(wrap);
+    made.outlineVolume = enclosedVolume(move.by(back), wrap.elements);
     const bool whole = made.pieces == 1 || how.pieces == Pieces::all;
     made.particleVolume = volumeInside(domains, whole ? nullptr : checked(wrap.points, wrap.elements, dim).get());
     requireVolume(made, how);
 
-    double way = 0;
+    double way = 0, furthest = how.offset + how.alpha;
     for (int round = 0; round < 40; ++round)
     {
-        way = how.matchVolume ? move.wayTo(made.particleVolume, how.offset + how.alpha) : back;
+        way = how.matchVolume ? move.wayTo(made.particleVolume, furthest) : back;
+        if (round == 0)
+            furthest = std::min(furthest, 3 * std::abs(way)); // more is not asked of the points that may still move
         made.points = move.by(way);
-        const auto cuts = cutting(made.points, wrap.elements, dim);
+        const auto cuts = cuttingElements(made.points, wrap.elements, dim);
         if (cuts.empty())
             break;
-        move.holdBack(cuts);
+        move.holdBack(cuts, round >= 12);
     }
     if (const std::size_t held = move.heldBack(); 4 * held > wrap.points.size())
         made.notes.push_back(
@@ -327,7 +204,7 @@ DeformedSurface deformedSurface(const std::vector<ParticleDomain>& domains, int 
     made.elements = wrap.elements;
     made.volume = region->volume();
     made.movedIn = way - back;
-    made.area = measure(made.points, made.elements);
+    made.area = surfaceArea(made.points, made.elements);
     return made;
 }
 } // namespace mpm::geometry

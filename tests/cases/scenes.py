@@ -108,14 +108,20 @@ def slopeUnderBaseMotion(scene):
 
 
 def geometryPipeline(scene):
-    """The whole way once."""
-    control = (CONTROL, "endTime", 0.2)
-    run = scene.coarse(2, (GRID, "min", "(-0.128 -0.128 -0.032)"), (GRID, "max", "(0.384 0.32 0.16)"), control)
-    scene.require(run.utility("extractSurface", "-latestTime"))
+    """The whole way once, in 3D and in 2D."""
+    run = scene.coarse(2, (GRID, "min", "(-0.128 -0.128 -0.032)"), (GRID, "max", "(0.384 0.32 0.16)"), (CONTROL, "endTime", 0.2))
     scene.report.make_variants(run.folder)
-    again = Run(run.folder / "variants" / "again")
-    subprocess.run(["gmsh", "-3", "remesh.geo", "-o", "deformed.msh"], cwd=again.folder / "geometry", check=True, stdout=subprocess.DEVNULL)
-    scene.require(again.utility("seedParticles"))
+    plane = Run(run.folder / "variants" / "plane")
+    scene.require(plane.utility("seedParticles"))
+    scene.require(plane.utility("mpmSolve", threads=1))
+    for body in (run, plane):
+        scene.require(body.utility("extractSurface", "-latestTime"))
+    scene.report.make_variants(run.folder)
+    for name, dim, script in (("again", 3, "remesh.geo"), ("planeAgain", 2, "remeshPlane.geo")):
+        again = Run(run.folder / "variants" / name)
+        subprocess.run(["gmsh", f"-{dim}", script, "-o", "deformed.msh"], cwd=again.folder / "geometry", check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        scene.require(again.utility("seedParticles"))
     for row in scene.report.measure(run.folder).rows:
         if row["inside"]:
             scene.check(f"{row['what']} ({row['measured']}, {row['expected']}) outside its band", float(row["inside"] != "yes"), "==", 0)

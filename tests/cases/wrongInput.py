@@ -171,7 +171,7 @@ class WrongInput(unittest.TestCase):
 
     def test_unknown_option(self):
         for utility in ("seedParticles", "gravityLoading", "mpmSolve", "smoothStress", "stressQuality", "splitParticles",
-                        "checkIntegration"):
+                        "checkIntegration", "extractSurface"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-latesTime", says=["-latesTime", "-case"])
 
@@ -186,7 +186,8 @@ class WrongInput(unittest.TestCase):
     # cases and files
 
     def test_missing_case(self):
-        for utility in ("seedParticles", "gravityLoading", "mpmSolve", "smoothStress", "stressQuality", "splitParticles"):
+        for utility in ("seedParticles", "gravityLoading", "mpmSolve", "smoothStress", "stressQuality", "splitParticles",
+                        "extractSurface"):
             with self.subTest(utility):
                 self.assert_refused(utility, "-case", "nowhere", says=["nowhere"])
 

@@ -64,6 +64,21 @@ def measured(*rows):
     return lambda case: errorTable.write(case, rows)
 
 
+SURFACE = "system/extractSurfaceDict"
+
+
+def torn(file):
+    """What is right of the middle goes two metres to the right."""
+    x = file["particles/position"][()]
+    x[x[:, 0] > 2, 0] += 2
+    file["particles/position"][...] = x
+
+
+def scattered(file):
+    """The particles at their places, a tenth as wide."""
+    file["particles/length0"][...] = file["particles/length0"][()] / 10
+
+
 BODIES = "constant/rigidBodies"
 ABSORBING = "side { type absorbing; material soil; plane { normal (-1 0 0); position 0; } }\n"
 

@@ -310,4 +310,15 @@ GROUPS = [
         Entry("an FMU of two times", "exportFMU -time 0:1", lambda case: shutil.copytree(case / "0", case / "1")),
         Entry("an FMU where there is no folder", "exportFMU -output nowhere/column.fmu"),
     ]),
+    ("Surfaces of deformed material", [
+        Entry("a material the state has none of", "extractSurface", write(SURFACE, "material clay;\n")),
+        Entry("a word misspelt", "extractSurface", write(SURFACE, "ofset 0.01;\n")),
+        Entry("a ball of no size", "extractSurface", write(SURFACE, "alpha 0;\n")),
+        Entry("a wish for pieces nobody knows", "extractSurface", write(SURFACE, "pieces two;\n")),
+        Entry("a tolerance that is none", "extractSurface", write(SURFACE, "volumeTolerance 0;\n")),
+        Entry("material in two pieces", "extractSurface", state(torn)),
+        Entry("particles too sparse for a surface", "extractSurface", both(write(SURFACE, "alpha 0.1;\n"), state(scattered))),
+        Entry("a surface that is there already", "extractSurface", write("postProcessing/surface_0.msh", "mine\n")),
+        Entry("a state of one's own to watch over", "seedParticles -watch"),
+    ]),
 ] + EFFECTS

@@ -1,13 +1,18 @@
 // Surfaces of deformed material: closed, of the particles' volume, and refused by name where there is none.
 #include "geometry/deformedSurface.hpp"
 #include "base/error.hpp"
+#include "coupling/exportSurface.hpp"
+#include "geometry/bodyGeometry.hpp"
 #include "geometry/particleDomains.hpp"
 #include "geometry/region2D.hpp"
 #include "geometry/region3D.hpp"
+#include "geometry/surfaceMove.hpp"
+#include "support/temporaryFolder.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 
 using namespace mpm;
@@ -147,6 +152,30 @@ TEST_CASE("Holes wider than two alpha stay, and the boundary runs around them th
                       Catch::Contains("+12.5 % off") && Catch::Contains("a smaller alpha"));
 }
 
+TEST_CASE("Through a file and gmsh the surface is the same body: a hole is a curve of its own")
+{
+    const auto frame = [](const Vector3& x) { return std::abs(x[0] - 0.3) > 0.1 || std::abs(x[1] - 0.3) > 0.1; };
+    const tests::TemporaryFolder folder;
+    for (const int dim : {2, 3})
+    {
+        const auto s = geometry::deformedSurface(
+            lattice(dim, dim == 2 ? 12 : 4, dim == 2 ? std::function<bool(const Vector3&)>(frame) : everywhere), dim,
+            options());
+        coupling::SurfaceMesh mesh{dim, s.points, {}};
+        for (const auto& e : s.elements)
+            mesh.elements.push_back({e[0], e[1], e[2]});
+        coupling::exportSurface(folder / "surface.msh", "sand", mesh);
+        std::ofstream(folder / "body.geo")
+            << "Merge \"surface.msh\";\n"
+            << (dim == 2 ? "Curve Loop(1) = {1};\nCurve Loop(2) = {2};\nPlane Surface(1) = {1, 2};\nPhysical "
+                           "Surface(\"sand\") = {1};\n"
+                         : "Surface Loop(1) = {1};\nVolume(1) = {1};\nPhysical Volume(\"sand\") = {1};\n");
+        const auto body = geometry::readGeometry(folder / "body.geo", dim);
+        REQUIRE(body.regions.size() == 1);
+        CHECK(body.regions[0]->volume() == Approx(s.volume).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("Two pieces are an error that says where, or the larger one, or both")
 {
     for (const int dim : {2, 3})
@@ -190,6 +219,46 @@ TEST_CASE("Particles too sparse for alpha are named, and so is what is no domain
     sparse[3].edges[1][0] = std::nan("");
     CHECK_THROWS_WITH(geometry::deformedSurface(sparse, 2, options()), Catch::Contains("is not finite"));
     CHECK_THROWS_WITH(geometry::deformedSurface({}, 3, options()), Catch::Contains("no particles"));
+}
+
+TEST_CASE("A surface that cuts itself is noticed, and points that are held back keep their places")
+{
+    // two tetrahedra, the second moved by `way`: apart they cut nothing, into each other they do
+    const auto pair = [](double way) {
+        std::vector<Vector3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        for (int i = 0; i < 4; ++i)
+            points.push_back(
+                {points[std::size_t(i)][0] + way, points[std::size_t(i)][1] + 0.1, points[std::size_t(i)][2] + 0.1});
+        return points;
+    };
+    const std::vector<geometry::Simplex> tetrahedra = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2},
+                                                       {4, 6, 5}, {4, 5, 7}, {5, 6, 7}, {4, 7, 6}};
+    CHECK(geometry::enclosedVolume(pair(2), tetrahedra) == Approx(1.0 / 3));
+    CHECK(geometry::cuttingElements(pair(2), tetrahedra, 3).empty());
+    CHECK(!geometry::cuttingElements(pair(0.3), tetrahedra, 3).empty());
+    CHECK_THROWS_WITH(geometry::Region3D("it", pair(0.3), tetrahedra), Catch::Contains("cuts or touches itself"));
+
+    const std::vector<geometry::Simplex> loop = {{0, 1, -1}, {1, 2, -1}, {2, 3, -1}, {3, 0, -1}};
+    const std::vector<Vector3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+        bow{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    CHECK(geometry::cuttingElements(square, loop, 2).empty());
+    CHECK(geometry::cuttingElements(bow, loop, 2) == std::vector<std::size_t>{3, 1});
+
+    geometry::Wrap wrap;
+    wrap.points = square;
+    wrap.outward = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    wrap.elements = loop;
+    geometry::SurfaceMove move(wrap);
+    CHECK(move.wayTo(0.64, 0.5) == Approx(0.1));
+    move.holdBack({0}, false); // half as far: the lower side
+    CHECK(move.by(0.2)[0][1] == Approx(0.1));
+    CHECK(move.by(0.2)[2][1] == Approx(0.8));
+    for (int i = 0; i < 3; ++i)
+        move.holdBack({0}, false);
+    CHECK(move.by(0.2)[0] == square[0]);
+    CHECK(move.heldBack() == 2);
+    move.holdBack({0}, true);
+    CHECK(move.heldBack() == 4);
 }
 
 TEST_CASE("Domains of stored particles are the images of their boxes under F")

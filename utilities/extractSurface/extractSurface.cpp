@@ -5,10 +5,12 @@
 #include "case/application.hpp"
 #include "case/caseDirectory.hpp"
 #include "case/caseLock.hpp"
+#include "coupling/couplingError.hpp"
 #include "coupling/exportSurface.hpp"
 #include "dictionary/dictionary.hpp"
 #include "geometry/deformedSurface.hpp"
 #include "geometry/particleDomains.hpp"
+#include "geometry/readSurfaceChoices.hpp"
 #include "output/stateFile.hpp"
 
 #include <algorithm>
@@ -18,48 +20,17 @@ using namespace mpm;
 
 namespace
 {
-struct Choices
+geometry::SurfaceChoices readChoices(const cases::CaseDirectory& here)
 {
-    std::string material; ///< "all", or one
-    Location materialWhere;
-    std::optional<double> alpha; ///< [cells]
-    double offset = 0;           ///< [cells]
-    geometry::SurfaceOptions surface;
-};
-
-Choices readChoices(const cases::CaseDirectory& here)
-{
-    using dictionary::Bound;
-    namespace unit = dictionary::unit;
     const std::string name = "system/extractSurfaceDict";
     const auto dict = here.hasFile(name) ? dictionary::Dictionary::readFile(here.dictionaryPath(name))
                                          : dictionary::Dictionary::fromText("", "the defaults of " + name);
-    Choices made;
-    made.material = dict.get<std::string>({"material", "one material, or all", unit::none, {}, "all"});
-    made.materialWhere = dict.where("material");
-    if (dict.found("alpha"))
-        made.alpha = dict.get<double>({"alpha",
-                                       "gaps and hollows narrower than two of it are closed [cells]; default one "
-                                       "seeding spacing",
-                                       unit::none, Bound::between(0.05, 100)});
-    made.offset = dict.get<double>({"offset", "how closely a 3D surface is wrapped around the domains [cells]",
-                                    unit::none, Bound::between(0.001, 1), 0.0125});
-    const std::string pieces =
-        dict.choose("pieces", "what is done with material in several pieces",
-                    {{"one", "an error"}, {"largest", "it alone"}, {"all", "all of them"}}, "one");
-    made.surface.pieces = pieces == "one"       ? geometry::Pieces::one
-                          : pieces == "largest" ? geometry::Pieces::largest
-                                                : geometry::Pieces::all;
-    made.surface.matchVolume = dict.get<bool>(
-        {"matchVolume", "move the surface in until it encloses the particles' volume", unit::none, {}, true});
-    made.surface.volumeTolerance = dict.get<double>(
-        {"volumeTolerance", "how far the outline may be off the particles' volume before it is matched", unit::none,
-         Bound::positive(), made.surface.volumeTolerance});
+    auto made = geometry::readSurfaceChoices(dict);
     dict.rejectUnread();
     return made;
 }
 
-std::optional<int> chosenMaterial(const Choices& choices, const state::State& state)
+std::optional<int> chosenMaterial(const geometry::SurfaceChoices& choices, const state::State& state)
 {
     if (choices.material == "all")
         return std::nullopt;
@@ -74,14 +45,11 @@ std::optional<int> chosenMaterial(const Choices& choices, const state::State& st
                                  near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
 }
 
-geometry::DeformedSurface surfaceOf(const cases::CaseDirectory& here, const std::string& time, Choices& choices)
+geometry::DeformedSurface surfaceOf(const cases::CaseDirectory& here, const std::string& time,
+                                    const geometry::SurfaceChoices& choices)
 {
     const auto state = output::readState(here.statePath(time));
-    auto& how = choices.surface;
-    how.cell = state.grid.h;
-    how.alpha = choices.alpha ? *choices.alpha * how.cell
-                              : *std::max_element(state.seedSpacing.begin(), state.seedSpacing.end());
-    how.offset = choices.offset * how.cell;
+    const auto how = choices.on(state.grid.h, *std::max_element(state.seedSpacing.begin(), state.seedSpacing.end()));
     const auto domains = geometry::particleDomains(state.particles, chosenMaterial(choices, state));
     try
     {
@@ -108,6 +76,23 @@ void requireFree(const std::vector<std::filesystem::path>& files, bool overwrite
         if (!overwrite && std::filesystem::exists(file))
             throw InputError({file.lexically_normal().string()}, "is there already; -overwrite replaces it");
 }
+
+void write(const cases::CaseDirectory& here, const std::string& time, const std::string& material,
+           const geometry::DeformedSurface& surface)
+{
+    coupling::SurfaceMesh mesh{surface.dim, surface.points, {}};
+    for (const auto& e : surface.elements)
+        mesh.elements.push_back({e[0], e[1], e[2]});
+    try
+    {
+        for (const auto& file : targets(here.postProcessing(), time, surface.dim))
+            coupling::exportSurface(file, material == "all" ? "surface" : material, mesh);
+    }
+    catch (const coupling::CouplingError& error)
+    {
+        throw InputError(error.what()); // a folder or disk that takes no file
+    }
+}
 } // namespace
 
 int main(int argc, char** argv)
@@ -127,7 +112,7 @@ int main(int argc, char** argv)
         const cases::CaseDirectory here(options.caseFolder);
         const cases::CaseLock lock(options, "extractSurface");
         const auto times = here.selectTimes(options.time, options.latestTime);
-        Choices choices = readChoices(here);
+        const auto choices = readChoices(here);
         const int dim = output::readSummary(here.statePath(times[0].name)).dim;
         for (const auto& time : times)
             requireFree(targets(here.folder() / "postProcessing", time.name, dim), options.overwrite);
@@ -138,9 +123,10 @@ int main(int argc, char** argv)
                      fmt::format("surface [{}]", unit), "off [%]", "moved in [m]", "pieces",
                      dim == 2 ? "segments" : "triangles"});
         std::vector<std::string> notes;
+        std::vector<geometry::DeformedSurface> surfaces; // all, before anything is written
         for (const auto& time : times)
         {
-            const auto surface = surfaceOf(here, time.name, choices);
+            const auto& surface = surfaces.emplace_back(surfaceOf(here, time.name, choices));
             const auto off = [&](double volume) {
                 return fmt::format("{:.3f}", 100 * (volume / surface.particleVolume - 1));
             };
@@ -151,14 +137,9 @@ int main(int argc, char** argv)
                        std::to_string(surface.elements.size())});
             for (const auto& note : surface.notes)
                 notes.push_back(fmt::format("  note: time {}: {}\n", time.name, note));
-            if (options.dryRun)
-                continue;
-            coupling::SurfaceMesh mesh{dim, surface.points, {}};
-            for (const auto& e : surface.elements)
-                mesh.elements.push_back({e[0], e[1], e[2]});
-            for (const auto& file : targets(here.postProcessing(), time.name, dim))
-                coupling::exportSurface(file, choices.material == "all" ? "surface" : choices.material, mesh);
         }
+        for (std::size_t i = 0; i < times.size() && !options.dryRun; ++i)
+            write(here, times[i].name, choices.material, surfaces[i]);
         fmt::print("extractSurface of {}\n{}", here.name(), table.text());
         for (const auto& note : notes)
             fmt::print("{}", note);
