@@ -24,6 +24,7 @@ std::string kernelText();
 std::vector<std::string> versionLines();
 
 /// The project's folder (the one that holds etc/): $MPM_PROJECT_DIR when set, as etc/bashrc does; of an installed
-/// program share/libmpm beside its bin/; otherwise the folder this library was configured in.
+/// program share/libmpm beside its bin/, of a library the one of its tree; otherwise the folder this library was
+/// configured in.
 std::string projectFolder();
 } // namespace mpm

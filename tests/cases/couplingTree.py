@@ -84,6 +84,15 @@ class Tree(unittest.TestCase):
         said = run(self.by_pkg_config(), case, code=1)
         self.assertRegex(said, r"mpmSchemes:\d+: .*uGIMPS.*uGIMP")
 
+    def test_dictionaries_find_the_etc_of_the_tree(self):
+        etc = self.home / "share" / "libmpm" / "etc"
+        etc.mkdir(parents=True)
+        (etc / "installed").write_text("../../bin\n")
+        (etc / "schemesOfTheTest").write_text("shape uGIMP; stressUpdate MUSL; transfer FLIP; picRate 2;\n")
+        case = self.copy_of_column("includes")
+        (case / "system" / "mpmSchemes").write_text('#includeEtc "schemesOfTheTest"\n')
+        self.assertIn("work of the wall", run(self.by_pkg_config(), case, "0.02"))
+
     def test_only_the_functions_of_the_header_are_seen(self):
         header = (self.home / "include" / "libmpm" / "mpm.h").read_text()
         declared = set(re.findall(r"\b(mpm_\w+)\(", re.sub(r"/\*.*?\*/", "", header, flags=re.S)))

@@ -21,7 +21,7 @@ mpm_participant* CallSequence::participant()
     if (b < 160)
         return p_[steady];
     if (b < 240)
-        return p_[fresh];
+        return p_[fresh] ? p_[fresh] : p_[steady];
     if (b < 248)
         return gone_.empty() ? nullptr : gone_[b % gone_.size()];
     return b < 252 ? nullptr : reinterpret_cast<mpm_participant*>(this);
