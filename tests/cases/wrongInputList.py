@@ -5,6 +5,14 @@ import shutil
 from wrongEffectList import EFFECTS
 from wrongInputEntries import *
 
+
+def coupled(case):
+    """Takes out what only mpmSolve records."""
+    path = case / "system" / "controlDict"
+    path.write_text(path.read_text().split("recordStrain")[0])
+
+
+
 GROUPS = [
     ("Options", [
         Entry("an option that does not exist", "mpmSolve -fast"),
@@ -303,7 +311,12 @@ GROUPS = [
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
     ]),
     ("An FMU", [
-        Entry("a case without coupling surfaces", "exportFMU"),
+        Entry("a case that records what only mpmSolve records", "exportFMU"),
+        Entry("a case without coupling surfaces", "exportFMU", coupled),
+        Entry("a surface in the soil", "exportFMU",
+              both(coupled, write("system/couplingDict", "surfaces { wall { type Rigid; points ((1 1) (2 1) (2 2)); } }\n"))),
+        Entry("a surface of no kind", "exportFMU",
+              both(coupled, write("system/couplingDict", "surfaces { wall { type Stiff; points ((5 1) (6 1) (6 2)); } }\n"))),
         Entry("a case without a state", "exportFMU", seeded=False),
         Entry("an FMU that is called otherwise", "exportFMU -output column.zip"),
         Entry("an FMU of a time that is not stored", "exportFMU -time 7"),
