@@ -60,25 +60,21 @@ class List
 
     void addParameters(const std::vector<Parameter>& parameters)
     {
-        add({"threads",
-             "threads of the calculation; results do not depend on it",
-             Type::int64,
-             Causality::parameter,
-             {},
-             {},
-             {1}});
+        Variable threads{"threads", "threads of the calculation; results do not depend on it", Type::int64,
+                         Causality::parameter};
+        threads.start = {1};
+        add(std::move(threads));
         add({"outputFolder", "a new folder for the case with its results; empty: a temporary one, removed at the end",
              Type::string, Causality::parameter});
         for (const Parameter& p : parameters)
-            add({p.name(),
-                 fmt::format("{} of {}", p.word, p.file),
-                 Type::float64,
-                 Causality::parameter,
-                 p.unit,
-                 p.values.size() == 1 ? std::vector<std::size_t>{} : std::vector{p.values.size()},
-                 p.values,
-                 {},
-                 p});
+        {
+            Variable v{p.name(), fmt::format("{} of {}", p.word, p.file), Type::float64, Causality::parameter, p.unit};
+            if (p.values.size() > 1)
+                v.shape = {p.values.size()};
+            v.start = p.values;
+            v.parameter = p;
+            add(std::move(v));
+        }
     }
 
     void addSurface(const std::string& surface)

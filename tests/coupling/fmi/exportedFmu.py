@@ -284,6 +284,8 @@ class ExportedFmu(unittest.TestCase):
             tool.ok("C", "setText", self.fmu.reference("outputFolder"), folder)
             self.refused(tool, "outputFolder", "C", "enter", 0)
             tool.ok("C", "free")
+            tool.ok("D", "instantiate")
+            tool.ok("D", "forget")
         self.assertEqual(tool.exit, 0)
         self.assertEqual(content(self.fmu.folder), before, "the unpacked FMU is as it was")
         self.assertEqual(list((WORK / "tmp").iterdir()), [])
