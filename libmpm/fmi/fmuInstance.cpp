@@ -284,7 +284,7 @@ double Instance::doStep(double from, double length, bool stepsBeforeStand)
 void Instance::refreshOutputs()
 {
     values_[0] = participant_->time();
-    const Reading from{*participant_, window_, substeps_};
+    const Reading from{*participant_, window_, substeps_, participant_->balance()};
     for (const Variable& v : variables_.all)
         if (v.read)
             v.read(from, std::span(values_).subspan(v.first, v.size()));
