@@ -211,8 +211,8 @@ bool Part::life(const std::string& verb, std::istringstream& words)
     }
     else if (verb == "forget") // a tool that ends without freeing what it has
     {
-        static std::vector<fmi3Instance> forgotten;
-        forgotten.push_back(std::exchange(instance, nullptr));
+        static auto* forgotten = new std::vector<fmi3Instance>; // in reach to the end: no leak of the importer
+        forgotten->push_back(std::exchange(instance, nullptr));
         answer(verb, fmi3OK);
     }
     else if (verb == "free")
