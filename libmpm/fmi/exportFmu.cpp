@@ -55,6 +55,15 @@ double roundedDown(double x)
     return decade;
 }
 
+/// A message about the parts as one about the case they are of.
+std::string asOf(const fs::path& caseFolder, const fs::path& parts, std::string message)
+{
+    const std::string found = parts.string() + "/", said = caseFolder == "." ? "" : caseFolder.string() + "/";
+    for (auto at = message.find(found); at != std::string::npos; at = message.find(found, at + said.size()))
+        message.replace(at, found.size(), said);
+    return message;
+}
+
 double endTimeOf(const fs::path& caseFolder)
 {
     const auto control = dictionary::Dictionary::readFile(caseFolder / "system/controlDict");
@@ -86,8 +95,20 @@ FmuExport::FmuExport(const fs::path& caseFolder, const std::string& timeName, co
     : binaries_(fmuBinaries())
 {
     const Parts parts(caseFolder, timeName);
-    packed_ = std::make_unique<CaseCopy>(parts.folder(), "");
-    coupling::Participant participant(parts.folder());
+    try
+    {
+        read(parts.folder(), modelName);
+    }
+    catch (const std::exception& error)
+    {
+        throw InputError(asOf(caseFolder, parts.folder(), error.what()));
+    }
+}
+
+void FmuExport::read(const fs::path& parts, const std::string& modelName)
+{
+    packed_ = std::make_unique<CaseCopy>(parts, "");
+    coupling::Participant participant(parts);
     if (participant.surfaces().empty())
         throw InputError("system/couplingDict: found no coupling surface, allowed: one or more, so that a master has "
                          "something to couple with");
@@ -113,6 +134,8 @@ void FmuExport::write(const fs::path& file, bool overwrite) const
     const fs::path license = fs::path(projectFolder()) / "LICENSE";
     if (fs::exists(license))
         archive.addFile("documentation/licenses/license.txt", license);
+    if (const fs::path whole = license.parent_path() / "COPYING"; fs::exists(whole))
+        archive.addFile("documentation/licenses/COPYING", whole);
     const std::string folder = "binaries/x86_64-linux/";
     archive.addFile(folder + facts_.modelIdentifier + ".so", binaries_[0]);
     for (std::size_t i = 1; i < binaries_.size(); ++i)

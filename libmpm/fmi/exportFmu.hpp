@@ -29,6 +29,8 @@ class FmuExport
     void write(const std::filesystem::path& file, bool overwrite) const;
 
   private:
+    void read(const std::filesystem::path& parts, const std::string& modelName);
+
     std::unique_ptr<CaseCopy> packed_;
     std::vector<std::filesystem::path> binaries_; ///< the library first
     ModelFacts facts_;

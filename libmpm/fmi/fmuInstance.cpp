@@ -1,6 +1,7 @@
 #include "fmi/fmuInstance.hpp"
 
 #include "base/error.hpp"
+#include "output/hdf5Probe.hpp"
 
 #include <fmt/format.h>
 
@@ -89,6 +90,18 @@ void Instance::clear()
     substeps_ = 0;
 }
 
+namespace
+{
+/// The states of the case need not be looked at by a process of its own before they are read (output/hdf5Probe.hpp), as
+/// the token tells that they are those that were exported. The importer's process may have threads: no place for fork.
+void trust(const std::filesystem::path& folder)
+{
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "state.h5")
+            output::rememberHarmless(entry.path());
+}
+} // namespace
+
 /// A participant of the case with the parameters as they are, not initialised; in a folder in which nothing was
 /// calculated yet. Until it is there, all stays as it was.
 void Instance::build()
@@ -96,6 +109,8 @@ void Instance::build()
     std::unique_ptr<CaseCopy> fresh;
     if (!copy_ || calculated_ || copiedTo_ != outputFolder_)
         fresh = std::make_unique<CaseCopy>(case_, outputFolder_);
+    if (fresh)
+        trust(fresh->folder());
     const double threads = variables_.all.empty() ? 1 : values_[variables_.all[variables_.at("threads")].first];
     participant_ = std::make_unique<Participant>((fresh ? fresh : copy_)->folder(), settings(), int(threads));
     if (fresh)
@@ -269,7 +284,7 @@ double Instance::doStep(double from, double length, bool stepsBeforeStand)
 void Instance::refreshOutputs()
 {
     values_[0] = participant_->time();
-    const Reading from{*participant_, window_, substeps_};
+    const Reading from{*participant_, window_, substeps_, participant_->balance()};
     for (const Variable& v : variables_.all)
         if (v.read)
             v.read(from, std::span(values_).subspan(v.first, v.size()));

@@ -76,9 +76,10 @@ std::optional<Unit> takeDimensions(std::vector<std::string>& pieces)
     pieces.erase(pieces.begin(), close + 1);
     const std::array<const char*, 7> bases = {"kg", "m", "s", "K", "mol", "A", "cd"};
     for (std::size_t i = 0; i < bases.size(); ++i)
-        if (unit.exponents[i] != 0)
-            unit.name += (unit.name.empty() ? "" : ".") + std::string(bases[i]) +
-                         (unit.exponents[i] == 1 ? "" : std::to_string(unit.exponents[i]));
+        if (const int exponent = unit.exponents[i]; exponent != 0)
+            unit.name.append(unit.name.empty() ? "" : ".")
+                .append(bases[i])
+                .append(exponent == 1 ? "" : std::to_string(exponent));
     return unit;
 }
 
@@ -135,7 +136,7 @@ void takeFile(const std::filesystem::path& folder, const std::string& file, std:
         {
             std::string path;
             for (const std::string& name : open)
-                path += name + ".";
+                path.append(name).append(".");
             takeEntry(file, path, line, out);
         }
         before = line;
@@ -151,9 +152,9 @@ std::string namePart(const std::string& text)
     for (const char c : text)
     {
         plain = plain && (isLetter(c) || std::isdigit(static_cast<unsigned char>(c)));
-        quoted += (c == '\'' || c == '\\' ? "\\" : "") + std::string(1, c);
+        quoted.append(c == '\'' || c == '\\' ? "\\" : "").append(1, c);
     }
-    return plain ? text : quoted + "'";
+    return plain ? text : quoted.append("'");
 }
 
 std::string Parameter::name() const
@@ -161,7 +162,7 @@ std::string Parameter::name() const
     std::string name = namePart(file.substr(file.find('/') + 1));
     std::istringstream parts(word);
     for (std::string part; std::getline(parts, part, '.');)
-        name += "." + namePart(part);
+        name.append(".").append(namePart(part));
     return name;
 }
 

@@ -43,8 +43,9 @@ enum class Causality
 struct Reading
 {
     const coupling::Participant& participant;
-    double window = 0;  ///< length of the last communication step [s]; 0 before the first
-    Index substeps = 0; ///< steps it took
+    double window = 0;         ///< length of the last communication step [s]; 0 before the first
+    Index substeps = 0;        ///< steps it took
+    coupling::Balance balance; ///< of the participant: sums over all particles, so once
 };
 
 struct Variable

@@ -5,6 +5,18 @@ import shutil
 from wrongEffectList import EFFECTS
 from wrongInputEntries import *
 
+
+def coupled(case):
+    """Takes out what only mpmSolve records."""
+    path = case / "system" / "controlDict"
+    path.write_text(path.read_text().split("recordStrain")[0])
+
+
+def surface(kind, points):
+    return write("system/couplingDict", f"surfaces {{ wall {{ type {kind}; points ({points}); }} }}\n")
+
+
+
 GROUPS = [
     ("Options", [
         Entry("an option that does not exist", "mpmSolve -fast"),
@@ -303,12 +315,16 @@ GROUPS = [
                                                       (case / "0.0" / "state.h5").write_bytes(b"x"))),
     ]),
     ("An FMU", [
-        Entry("a case without coupling surfaces", "exportFMU"),
+        Entry("a case that records what only mpmSolve records", "exportFMU"),
+        Entry("a case without coupling surfaces", "exportFMU", coupled),
+        Entry("a surface of no kind", "exportFMU", both(coupled, surface("Stiff", "(5 1) (6 1) (6 2)"))),
+        Entry("a surface outside the grid", "exportFMU", both(coupled, surface("Rigid", "(50 1) (51 1) (51 2)"))),
         Entry("a case without a state", "exportFMU", seeded=False),
         Entry("an FMU that is called otherwise", "exportFMU -output column.zip"),
         Entry("an FMU of a time that is not stored", "exportFMU -time 7"),
         Entry("an FMU of two times", "exportFMU -time 0:1", lambda case: shutil.copytree(case / "0", case / "1")),
-        Entry("an FMU where there is no folder", "exportFMU -output nowhere/column.fmu"),
+        Entry("an FMU where there is no folder", "exportFMU -output nowhere/column.fmu",
+              both(coupled, surface("Rigid", "(5 1) (6 1) (6 2)"))),
     ]),
     ("Surfaces of deformed material", [
         Entry("a material the state has none of", "extractSurface", write(SURFACE, "material clay;\n")),

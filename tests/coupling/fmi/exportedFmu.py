@@ -100,6 +100,11 @@ class ExportedFmu(unittest.TestCase):
         co = self.fmu.root.find("CoSimulation")
         for flag in ("canGetAndSetFMUState", "canSerializeFMUState", "canHandleVariableCommunicationStepSize"):
             self.assertEqual(co.get(flag), "true")
+        self.assertEqual(self.fmu.variables["boundaryConditions.'rough-base'.mu"].get("start"), "0.5")
+        self.assertEqual(self.fmu.variables["g.value"].get("start"), "0 -9.8 0")
+        stiffness = {u.get("name"): u.find("BaseUnit").attrib for u in self.fmu.root.find("UnitDefinitions")}[
+            self.fmu.variables["materialProperties.sand.E"].get("unit")]
+        self.assertEqual(stiffness, {"kg": "1", "m": "-1", "s": "-2"})
         self.assertNotIn("materialProperties.sand.density", self.fmu.variables)
 
     def test_only_the_standards_symbols(self):
@@ -279,6 +284,8 @@ class ExportedFmu(unittest.TestCase):
             tool.ok("C", "setText", self.fmu.reference("outputFolder"), folder)
             self.refused(tool, "outputFolder", "C", "enter", 0)
             tool.ok("C", "free")
+            tool.ok("D", "instantiate")
+            tool.ok("D", "forget")
         self.assertEqual(tool.exit, 0)
         self.assertEqual(content(self.fmu.folder), before, "the unpacked FMU is as it was")
         self.assertEqual(list((WORK / "tmp").iterdir()), [])
@@ -294,6 +301,14 @@ class ExportedFmu(unittest.TestCase):
         refused("there already", "-output", WORK / "sand.fmu")
         refused("ends in .fmu", "-output", WORK / "sand.zip")
         refused("cannot write", "-output", WORK / "nowhere/sand.fmu")
+        for file, old, new, text in (("system/couplingDict", "Rigid", "Stiff", "system/couplingDict:14"),
+                                     ("constant/materialProperties", "nu  ", "nuu ", "constant/materialProperties:")):
+            path = self.case / file
+            before = path.read_text()
+            path.write_text(before.replace(old, new))
+            refused(f"{self.case}/{text}", "-output", WORK / "wrong.fmu")
+            path.write_text(before)
+        self.assertEqual(list((WORK / "tmp").iterdir()), [])
         done = run(BUILD / "bin" / "exportFMU", "-case", self.case, "-dry-run", "-output", WORK / "dry.fmu")
         self.assertEqual((done.returncode, (WORK / "dry.fmu").exists()), (0, False))
 

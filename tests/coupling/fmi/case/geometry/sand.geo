@@ -11,5 +11,5 @@ Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Physical Surface("sand") = {1};
-Physical Curve("base") = {1};
+Physical Curve("rough-base") = {1};
 Physical Curve("end") = {4};
