@@ -63,6 +63,7 @@ int run(const cases::Options& options)
     {
         Coupling(*soil, wall, scheme).run(end, [&](const Row& row) {
             writeRow(out, row, wall);
+            out.flush(); // others may look at it while it runs
             iterations += row.iterations;
         });
         soil->finish();
