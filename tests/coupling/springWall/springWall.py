@@ -115,6 +115,10 @@ class Ways(unittest.TestCase):
         self.assertEqual(couple.in_process(CASE, "light-implicit", "-mass", 100, *SHORT), 0)
         self.assertLess(rows("light-implicit")["x"].max(), 0.1)
 
+    def test_readme_is_what_was_measured(self):
+        report = PROJECT / "cases" / "columnSpringWall" / "report.py"
+        self.assertEqual(subprocess.run([report, "-check"]).returncode, 0)
+
     def test_the_soil_dies(self):
         folder = couple.copy(CASE, "noSoil")
         server = couple.start(folder, "soilServer", ".", "soil")
