@@ -56,6 +56,5 @@ class Coupling
     Scheme scheme_;
     double omega_;
     double force_ = 0; ///< of the last window
-    bool first_ = true;
 };
 } // namespace springWall
