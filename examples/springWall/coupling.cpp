@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace springWall
 {
@@ -17,6 +18,29 @@ void Coupling::explicitWindow(double window, Row& row)
     row.iterations = 1;
 }
 
+namespace
+{
+/// r falls with x: a wall that goes further is pushed less. Where both signs are known, the next x lies between.
+class Bracket
+{
+  public:
+    void learn(double x, double r) { (r > 0 ? low_ : high_) = x; }
+    double keep(double next)
+    {
+        const double width = high_ - low_; // infinite until both ends are known
+        const bool slow = std::isfinite(width) && ++tries_ % 3 == 0 && width > 0.5 * before_;
+        if (tries_ % 3 == 1)
+            before_ = width;
+        return slow || next <= low_ || next >= high_ ? 0.5 * (low_ + high_) : next;
+    }
+
+  private:
+    double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
+    double before_ = high_;
+    int tries_ = 0;
+};
+} // namespace
+
 void Coupling::implicitWindow(double window, Row& row)
 {
     const auto start = wall_.save();
@@ -24,6 +48,7 @@ void Coupling::implicitWindow(double window, Row& row)
     wall_.advance(window, force_, force_); // a first guess
     double x = wall_.state().position, before = 0;
     SoilWindow soil;
+    Bracket bracket;
     for (row.iterations = 1;; ++row.iterations)
     {
         soil = soil_.advance(window, x);
@@ -37,9 +62,12 @@ void Coupling::implicitWindow(double window, Row& row)
             throw SoilLost(fmt::format("window from {:g} s: {:g} m apart after {} iterations", start.time, row.mismatch,
                                        row.iterations));
         if (row.iterations > 1 && r != before)
-            omega_ = std::clamp(-omega_ * before / (r - before), 1e-3, 1.0);
+            omega_ = std::clamp(-omega_ * before / (r - before), 1e-4, 1.0);
+        bracket.learn(x, r);
+        const double next = bracket.keep(x + omega_ * r);
+        omega_ = (next - x) / r;
         before = r;
-        x += omega_ * r;
+        x = next;
         soil_.restore();
     }
     row.soilImpulse += soil.force * window;

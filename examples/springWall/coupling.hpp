@@ -9,7 +9,9 @@
 /// implicit   x -> soil -> F -> wall -> x~ is repeated from the window's start until x~ = x to `tolerance`:
 ///                x <- x + omega r,   r = x~ - x,   omega <- -omega r_old/(r - r_old)
 ///            (Aitken; U. Kuettler & W. A. Wall 2008, Comput. Mech. 43, 61-72, Eq. 44). For one freedom this is the
-///            secant method, and the interface quasi-Newton method with one column is the same.
+///            secant method, and the interface quasi-Newton method with one column is the same. Soil pushes and does
+///            not pull, so r has kinks: x is kept between places where r has different signs, halving where Aitken
+///            leads out.
 #include "reference/springWall.hpp"
 #include "soilSide.hpp"
 
@@ -54,6 +56,5 @@ class Coupling
     Scheme scheme_;
     double omega_;
     double force_ = 0; ///< of the last window
-    bool first_ = true;
 };
 } // namespace springWall

@@ -19,7 +19,9 @@ std::unique_ptr<SoilSide> soilOf(const cases::Options& options)
         return soilBySocket(options.value("socket"));
     if (options.has("fmu"))
         return soilByFmu(options.value("fmu"));
-    return soilInProcess(options.caseFolder, options.threadCount());
+    if (!options.has("case"))
+        throw InputError("found neither -case nor -socket nor -fmu, allowed is one of them");
+    return soilInProcess(options.value("case"), options.threadCount());
 }
 
 Scheme schemeOf(const cases::Options& options)
@@ -61,6 +63,7 @@ int run(const cases::Options& options)
     {
         Coupling(*soil, wall, scheme).run(end, [&](const Row& row) {
             writeRow(out, row, wall);
+            out.flush(); // others may look at it while it runs
             iterations += row.iterations;
         });
         soil->finish();
@@ -80,18 +83,19 @@ int run(const cases::Options& options)
 int main(int argc, char** argv)
 {
     cases::ApplicationInfo info{"wallMaster", "a wall on a spring, integrated by CVODE, that soil pushes"};
+    info.usesCase = false;
     info.usesThreads = true;
-    info.options = {
-        {"socket", "PATH", "the soil is soilServer, at this Unix socket"},
-        {"fmu", "DIR", "the soil is an FMU, unpacked there (exportFMU); without both it is the case itself"},
-        {"coupling", "WORD", "implicit (default) or explicit"},
-        {"window", "SECONDS", "between exchanges (default 0.01)"},
-        {"end", "SECONDS", "of time (default 1)"},
-        {"tolerance", "METRES", "of implicit coupling (default 1e-10)"},
-        {"mass", "M", "of the wall [kg/m] (default 2e4)"},
-        {"damping", "C", "[N s/m/m] (default 0)"},
-        {"stiffness", "K", "of the spring [N/m/m] (default 5e5)"},
-        {"output", "FILE", "a row a window, .csv (default springWall.csv)"}};
+    info.options = {{"case", "DIR", "the soil is this case, seeded"},
+                    {"socket", "PATH", "the soil is soilServer, at this Unix socket"},
+                    {"fmu", "DIR", "the soil is an FMU, unpacked there (exportFMU)"},
+                    {"coupling", "WORD", "implicit (default) or explicit"},
+                    {"window", "SECONDS", "between exchanges (default 0.01)"},
+                    {"end", "SECONDS", "of time (default 1)"},
+                    {"tolerance", "METRES", "of implicit coupling (default 1e-10)"},
+                    {"mass", "M", "of the wall [kg/m] (default 2e4)"},
+                    {"damping", "C", "[N s/m/m] (default 0)"},
+                    {"stiffness", "K", "of the spring [N/m/m] (default 5e5)"},
+                    {"output", "FILE", "a row a window, .csv (default springWall.csv)"}};
     info.details =
         "Exit codes: 0 end is reached; 1 wrong input; 2 the soil cannot follow, is gone, or iterations do not "
         "converge.";

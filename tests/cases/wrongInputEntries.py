@@ -1,6 +1,7 @@
 """Words for the wrong inputs of wrongInputList.py and wrongEffectList.py."""
 
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -40,6 +41,24 @@ def load(what, text, *changes):
 
 def cost(what, text):
     return Entry(what, "accuracyCost", None if text is None else write(COST, text + "\n"), seeded=False)
+
+
+def plain(case):
+    """Without strain paths, which a coupled case does not record."""
+    path = case / "system" / "controlDict"
+    path.write_text(re.sub(r"(?ms)^recordStrain.*?^}\n", "", path.read_text()))
+
+
+def couple(what, words):
+    """mpmCouple with two surfaces, and what preciceCoupling says of them (None: it is not there)."""
+    walls = "".join(f"{name} {{ type Rigid; points (({x} 0.3) ({x + 1} 0.3) ({x + 1} 6) ({x} 6)); }}\n"
+                    for name, x in (("wall", 4.2), ("other", 6.2)))
+    text = f"surfaces\n{{\n{walls}}}\n"
+    if words is not None:
+        config = "" if "config " in words else "config \"precice-config.xml\"; "
+        text += f"preciceCoupling\n{{\n{config}{words}\n}}\n"
+    return Entry(what, "mpmCouple -dry-run",
+                 both(plain, write("system/couplingDict", text), write("precice-config.xml", "<a/>")))
 
 
 GRID, SCHEMES, CONTROL, SEED = "system/gridDict", "system/mpmSchemes", "system/controlDict", "system/seedParticlesDict"
