@@ -1,6 +1,7 @@
 #include "output/stateBytes.hpp"
 
 #include "base/error.hpp"
+#include "output/hdf5Probe.hpp"
 #include "output/stateFile.hpp"
 
 #include <filesystem>
@@ -59,6 +60,7 @@ state::State stateFromBytes(std::span<const std::byte> bytes)
     stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     if (!stream.flush())
         throw InputError({file.path().string()}, "cannot be written (disk full?)");
+    rememberHarmless(file.path()); // no look from another process: who hands bytes on vouches for them
     return readState(file.path());
 }
 } // namespace mpm::output
