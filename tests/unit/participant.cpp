@@ -211,6 +211,7 @@ TEST_CASE("in 3D a box of triangles pushes a block")
     p.addCouplingSurface("wall", mesh, kind);
     p.initialize();
     Vector3 impulse{};
+    double area = 0;
     for (int n = 1; n <= 8; ++n)
     {
         const double s = 0.02 * n;
@@ -224,6 +225,7 @@ TEST_CASE("in 3D a box of triangles pushes a block")
         p.advance(16 * dt);
         for (std::size_t a = 0; a < 3; ++a)
             impulse[a] += p.resultants("wall").impulse[a];
+        area = std::max(area, p.resultants("wall").contactArea);
     }
     const auto end = p.balance();
     REQUIRE(end.momentum[0] > 1);
@@ -232,7 +234,7 @@ TEST_CASE("in 3D a box of triangles pushes a block")
     std::vector<double> traction(24);
     p.readField("wall", FieldName::Traction, traction);
     REQUIRE(traction[3] <= 0); // on the face at the block the soil pushes back
-    REQUIRE(p.resultants("wall").contactArea == Approx(0.25).margin(0.2)); // 0.5 m x 0.5 m, to a cell at its edges
+    REQUIRE(area == Approx(0.25).margin(0.2)); // 0.5 m x 0.5 m, to a cell at its edges
 }
 
 TEST_CASE("a monitor goes with the soil, and loads it with what is written")
