@@ -170,6 +170,9 @@ void SolverRun::banner() const
                                   (limit_.waveSpeed + limit_.speed) * stepSize() / state_.grid.h));
     line("monitor", monitor_->describe());
     line("threads", fmt::format("{}", options_.threadCount()));
+    if (folder_.hasFile("system/couplingDict"))
+        line("note", "system/couplingDict: its surfaces are not in this run; mpmCouple or a master puts them there "
+                     "(docs/coupling.md)");
     for (const auto& note : {instructionSetNote(state_, instructionSet()), storageNote(state_, storage())})
         if (!note.empty())
             line("note", note);

@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "coupling/couplingDict.hpp"
-#include "coupling/exportSurface.hpp"
 #include "coupling/implementation.hpp"
 
 #include <algorithm>
@@ -359,7 +358,10 @@ void Participant::acceptWindow()
     const bool fresh = own.soil.fresh() && !own.windows.wasOpen();
     if (own.soil.due())
         own.soil.state().provenance["coupling"] = own.surfacesAsText(*own.hold());
+    const bool due = own.soil.due();
     own.soil.accept();
+    if (due)
+        WindowSeries::writeSurfaces(own.soil.folder(), own.soil.storedName(), own.surfaces, own.soil.state());
     if (!own.windows.isOpen())
         own.windows.open(own.soil.folder().postProcessing(), own.surfaces, fresh ? std::nullopt : std::optional(from));
     own.windows.write(time(), time() - from, own.surfaces);
@@ -368,18 +370,7 @@ void Participant::acceptWindow()
 
 void Participant::exportSurface(const std::string& surface, const std::filesystem::path& file) const
 {
-    const auto& found = own_->find(surface);
-    SurfaceMesh now = found.mesh();
-    now.vertices = found.points();
-    std::vector<VertexField> fields;
-    for (const auto& field : found.fields())
-        if (field.direction == Direction::read && field.support == Support::vertex && own_->lifecycle != Created)
-        {
-            std::vector<double> values(std::size_t(field.components) * now.vertices.size());
-            found.readOwn(field, own_->soil.state(), values);
-            fields.push_back({fieldWord(field.name), field.components, std::move(values)});
-        }
-    coupling::exportSurface(file, surface, now, fields);
+    own_->find(surface).exportTo(file, own_->lifecycle == Created ? nullptr : &own_->soil.state());
 }
 
 void Participant::finalize()

@@ -191,6 +191,7 @@ void Soil::writeState(state::State& state, bool outOfTurn)
     pending.commit();
     written_->committed();
     storedTime_ = state.time;
+    storedName_ = name;
     std::vector<std::string> names;
     for (const auto& time : folder_.times())
         names.push_back(time.name);

@@ -49,6 +49,8 @@ class Soil
     bool due() const { return due_; }
     /// Did it begin with a state of step 0?
     bool fresh() const { return startStep_ == 0; }
+    /// The last time folder written in this run; empty: none.
+    const std::string& storedName() const { return storedName_; }
     /// Lets go of files and the lock.
     void end();
     bool outputBegun() const { return history_ != nullptr; }
@@ -78,7 +80,7 @@ class Soil
     std::unique_ptr<stepping::Stepper> stepper_;
     stepping::StabilityLimit limit_;
     double restWaveSpeed_ = 0;
-    std::string startName_;
+    std::string startName_, storedName_;
     Index startStep_ = 0;
     std::unique_ptr<output::CsvSeries> history_, budget_;
     std::unique_ptr<cases::ActorSeries> actors_;

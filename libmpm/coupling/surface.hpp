@@ -52,11 +52,11 @@ class Surface
     void endWindow(double time);
 
     void read(const Field& field, const state::State& state, std::span<double> out) const;
-    /// The same on its own vertices.
-    void readOwn(const Field& field, const state::State& state, std::span<double> out) const;
     void average(const Field& field, std::span<double> out) const;
     Resultants resultants() const;
     double work() const { return now_.work; }
+    /// As it is now (coupling/exportSurface.hpp); with its fields where there is a state.
+    void exportTo(const std::filesystem::path& file, const state::State* state) const;
     /// Where the vertices are now.
     std::vector<Vector3> points() const;
 

@@ -1,6 +1,7 @@
 // What goes in and out of a surface: written and read fields, averages, sums, bytes.
 #include "base/error.hpp"
 #include "coupling/byteStream.hpp"
+#include "coupling/exportSurface.hpp"
 #include "coupling/surface.hpp"
 #include "nodal/vectors.hpp"
 
@@ -218,10 +219,13 @@ void Surface::read(const Field& field, const state::State& state, std::span<doub
     give(field, own(field, state), out);
 }
 
-void Surface::readOwn(const Field& field, const state::State& state, std::span<double> out) const
+void Surface::exportTo(const std::filesystem::path& file, const state::State* state) const
 {
-    const auto values = own(field, state);
-    std::copy(values.begin(), values.end(), out.begin());
+    std::vector<VertexField> out;
+    for (const auto& field : fields())
+        if (state && field.direction == Direction::read && field.support == Support::vertex)
+            out.push_back({fieldWord(field.name), field.components, own(field, *state)});
+    exportSurface(file, name_, meshNow(), out);
 }
 
 void Surface::average(const Field& field, std::span<double> out) const

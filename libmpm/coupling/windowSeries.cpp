@@ -1,5 +1,9 @@
 #include "coupling/windowSeries.hpp"
 
+#include "output/replaceFile.hpp"
+
+#include <fmt/format.h>
+
 namespace mpm::coupling
 {
 namespace
@@ -38,6 +42,22 @@ void WindowSeries::write(double time, double window, const std::list<Surface>& s
         for (const auto& part : surface.mappedSums())
             row.insert(row.end(), part.begin(), part.end());
         series_[n++].write(row);
+    }
+}
+void WindowSeries::writeSurfaces(const cases::CaseDirectory& folder, const std::string& timeName,
+                                 const std::list<Surface>& surfaces, const state::State& state)
+{
+    const auto out = folder.postProcessing();
+    for (const auto& surface : surfaces)
+    {
+        output::makeFolder(out / surface.name());
+        surface.exportTo(out / surface.name() / (timeName + ".vtp"), &state);
+        std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+        for (const auto& time : folder.times())
+            if (std::filesystem::exists(out / surface.name() / (time.name + ".vtp")))
+                list += fmt::format("<DataSet timestep=\"{}\" file=\"{}/{}.vtp\"/>\n", output::shortest(time.value),
+                                    surface.name(), time.name);
+        output::replaceText(out / (surface.name() + ".pvd"), list + "</Collection>\n</VTKFile>\n");
     }
 }
 } // namespace mpm::coupling

@@ -8,6 +8,10 @@
 ///     contactArea                     at the end
 ///     forceX Y Z, mappedForceX Y Z    sum over vertices of the force last exchanged with a partner's mesh, before and
 ///                                     after the mapping (conservative: they agree to round-off)
+///
+/// and for ParaView postProcessing/<surface>/<time>.vtp, the surface with its fields at each stored time, listed with
+/// their times in postProcessing/<surface>.pvd.
+#include "case/caseDirectory.hpp"
 #include "coupling/surface.hpp"
 #include "output/csvSeries.hpp"
 
@@ -25,6 +29,10 @@ class WindowSeries
     bool wasOpen() const { return wasOpen_; }
     void close();
     void write(double time, double window, const std::list<Surface>& surfaces);
+
+    /// The surfaces as they are now, beside the state just stored as `timeName`.
+    static void writeSurfaces(const cases::CaseDirectory& folder, const std::string& timeName,
+                              const std::list<Surface>& surfaces, const state::State& state);
 
   private:
     std::vector<output::CsvSeries> series_;

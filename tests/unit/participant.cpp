@@ -340,6 +340,8 @@ TEST_CASE("only accepted windows are written, and the case goes on from the last
         REQUIRE_FALSE(std::filesystem::exists(folder / "0.125"));
         p.acceptWindow();
         REQUIRE(std::filesystem::exists(folder / "0.125/state.h5"));
+        REQUIRE(std::filesystem::exists(folder / "postProcessing/wall/0.125.vtp"));
+        REQUIRE(std::filesystem::exists(folder / "postProcessing/wall.pvd"));
         pushOn(p, 10 * dt);
         p.acceptWindow();
         pushOn(p, 100 * dt); // in the middle of which somebody pulls the plug
