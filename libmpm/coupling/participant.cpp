@@ -3,11 +3,11 @@
 #include "base/error.hpp"
 #include "coupling/couplingDict.hpp"
 #include "coupling/implementation.hpp"
+#include "coupling/threadCount.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <omp.h>
 
 namespace mpm::coupling
 {
@@ -267,8 +267,7 @@ Advance Participant::advance(double window)
                                         "steps of {:.3g} s",
                                         window, start, 1e-9 * step, mostSubsteps * step, step));
     const auto before = own_->hold();
-    if (own_->threads > 0)
-        omp_set_num_threads(own_->threads);
+    const ThreadCount threadCount(own_->threads);
     Advance out;
     try
     {
@@ -341,6 +340,7 @@ Balance Participant::balance() const
     out.dissipation = ledger.plasticDissipation + ledger.frictionDissipation + ledger.wallLoss +
                       ledger.dampingDissipation + ledger.contactFriction + ledger.contactLoss;
     out.gravityWork = ledger.gravityWork;
+    out.motionWork = ledger.motionWork;
     out.residual = stepping::residual(ledger, totals.strainEnergy);
     out.momentum = totals.momentum;
     for (const auto& surface : own_->surfaces)

@@ -91,6 +91,7 @@ struct Balance
 {
     double kineticEnergy = 0, strainEnergy = 0, dissipation = 0, gravityWork = 0;
     double interfaceWork = 0; ///< of all surfaces on the soil since initialize()
+    double motionWork = 0;    ///< the same by the soil's own books, with walls and bodies whose motion is prescribed
     double residual = 0;      ///< what the budget does not explain
     Vector3 momentum{};
 };

@@ -46,6 +46,9 @@ Surface::Surface(std::string name, SurfaceMesh mesh, SurfaceKind kind, const Sur
     const auto refuse = [&](const std::string& what) { throw CouplingError(Fault::badSurface, name_ + ": " + what); };
     if (!(options.mu >= 0) || !std::isfinite(options.mu))
         refuse(fmt::format("found friction mu {}, allowed are finite values of 0 and more", options.mu));
+    for (const double x : options.reference)
+        if (!options.referenceIsCentroid && !std::isfinite(x))
+            refuse(fmt::format("found {} in the reference point, allowed are finite numbers", x));
     const std::size_t count = mesh_.vertices.size();
     now_.displacement = now_.velocity = now_.force = now_.traction = Samples(3 * count);
     now_.impulse = now_.windowImpulse = std::vector<double>(3 * count, 0.0);
