@@ -93,7 +93,7 @@ function(mpm_instruction_set target output set)
         # the lowest set, must not stand in for the library's own.
         target_compile_options(${target} PRIVATE ${flags} -fvisibility-inlines-hidden -fno-semantic-interposition)
         target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
-        install(TARGETS ${target} LIBRARY DESTINATION ${MPM_LIBRARY_FOLDER}${folder})
+        install(TARGETS ${target} LIBRARY DESTINATION ${MPM_LIBRARY_FOLDER}${folder} COMPONENT coupling)
     endif()
     target_compile_definitions(${target} PRIVATE MPM_INSTRUCTION_SET="${name}" "MPM_SET_FLAGS=\"${flagsText}\"")
 endfunction()

@@ -305,7 +305,9 @@ void CallSequence::keep(mpm_participant* p, unsigned verb)
         return;
     }
     case 4:
-        return bytesOf(p);
+        if (byte() % 4 == 0) // milliseconds each
+            bytesOf(p);
+        return;
     default:
         if (checked(mpm_state_free(state)) == MPM_OK && any)
             saved_.erase(saved_.begin() + std::ptrdiff_t(which));
