@@ -25,6 +25,14 @@ function(mpm_utility name)
     mpm_install_utility(${name})
 endfunction()
 
+# Assertions need no optimiser, and it would cost a third of the time to compile them; with sanitizers, half.
+set(MPM_TEST_OPTIMISATION -O1 CACHE STRING "how test programs are compiled that hold no kernels themselves")
+option(MPM_TEST_CASES "a ctest test for each case of the test programs; OFF: one a program, without its cases tagged [long]" ON)
+
+# What the sanitizers of tests/Allaudit look at: test programs of the labels unit and verification, and utilities that
+# scenes of the label stability run.
+add_custom_target(audited)
+
 # mpm_test(name LIBS...): one Catch2 program from <name>.cpp in the current folder; its cases become ctest tests whose
 # label is the folder's name.
 function(mpm_test name)
@@ -34,6 +42,17 @@ function(mpm_test name)
     target_compile_definitions(${name} PRIVATE MPM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MPM_BUILD_DIR="${PROJECT_BINARY_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     get_filename_component(label ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    if(NOT "mpmKernelFlags" IN_LIST ARGN)
+        target_compile_options(${name} PRIVATE $<$<NOT:$<CONFIG:Debug>>:${MPM_TEST_OPTIMISATION}>)
+    endif()
+    if(label MATCHES "^(unit|verification)$")
+        add_dependencies(audited ${name})
+    endif()
     # threads that wait sleep: tests run side by side
-    catch_discover_tests(${name} TEST_PREFIX "${name}:" PROPERTIES LABELS ${label} ENVIRONMENT OMP_WAIT_POLICY=passive)
+    if(MPM_TEST_CASES)
+        catch_discover_tests(${name} TEST_PREFIX "${name}:" PROPERTIES LABELS ${label} ENVIRONMENT OMP_WAIT_POLICY=passive)
+    else()
+        add_test(NAME ${name} COMMAND ${name} ~[long])
+        set_tests_properties(${name} PROPERTIES LABELS ${label} ENVIRONMENT OMP_WAIT_POLICY=passive)
+    endif()
 endfunction()

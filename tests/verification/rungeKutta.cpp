@@ -245,7 +245,7 @@ double largestFrequency(const std::string& shape, const state::State& start, dou
 }
 } // namespace
 
-TEST_CASE("vibrations lie under the frequency the limits are made for")
+TEST_CASE("vibrations lie under the frequency the limits are made for", "[long]")
 {
     double most[2] = {};
     for (const int dim : {2, 3})

@@ -151,7 +151,7 @@ void meets(const Study& s, const std::string& scheme, const std::vector<double>&
 }
 } // namespace
 
-TEST_CASE("the bar in cubic splines: temporal errors and orders, without and with particles that cross cells")
+TEST_CASE("the bar in cubic splines: temporal errors and orders, without and with particles that cross cells", "[long]")
 {
     for (const double A : {1e-4, 0.05})
     {
@@ -172,7 +172,7 @@ TEST_CASE("the bar in cubic splines: temporal errors and orders, without and wit
     }
 }
 
-TEST_CASE("the bar in cpGIMP: kinks of the shape show in RK4 alone")
+TEST_CASE("the bar in cpGIMP: kinks of the shape show in RK4 alone", "[long]")
 {
     const auto s = study("cpGIMP", 0.05, {"RK2", "RK4"});
     CHECK(*s.result.spatial == Approx(2.1696e-5).epsilon(1e-4));

@@ -53,6 +53,16 @@ class Tables(unittest.TestCase):
         self.assertEqual(v.differences(self.table(7e-13, floor=1e-12), printed), [])
         self.assertEqual(len(v.differences(self.table(7e-10, floor=1e-12), printed)), 1)
 
+    def test_rows_of_the_long_version_may_be_left_out_and_no_others(self):
+        printed = v.markdown(self.table(1e-3))
+        row = next(line for line in printed.split("\n") if "1.00e-03" in line)
+        first = row.strip("|").split("|")[0].strip()
+        more = printed.replace(row, row + "\n" + row.replace(first, "night"))
+        self.assertTrue(v.differences(self.table(1e-3), more))
+        self.assertEqual(v.differences(self.table(1e-3), v.without(more, [["night"]])), [])
+        self.assertTrue(v.differences(self.table(1e-3), v.without(more, [["nigh"]])))
+        self.assertTrue(v.differences(self.table(1e-3), v.without(printed, [[first]])))
+
     def test_words_rows_and_titles_must_be_the_same(self):
         printed = v.markdown(self.table(1e-3))
         self.assertTrue(v.differences(self.table(1e-3) + self.table(1e-3), printed))
