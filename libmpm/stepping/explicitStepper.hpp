@@ -313,9 +313,29 @@ class ExplicitStepper : public Stepper
     void layToRest();
     double disturbance(const state::Tile& tile, const std::vector<char>& solved);
     std::vector<Index> wake(const std::vector<char>& solved);
-    bool restingMass(const nodal::NodeRow<dim>& row, const state::Block& block, double* mass);
+    const Record* restingMotion(const nodal::NodeRow<dim>& row, const state::Block& block);
+    void sumRestingMotion(nodal::NodeRow<dim> row, const state::Block& block, Record* motion);
+    void forgetRestingMotion() { motionKnown_.assign(grid_.blocks().size(), 0); }
+    double energyOf(const state::Tile& tile);
     void holdResting(const std::vector<Index>& blocks);
     void holdStrainVelocities();
+
+    // what sleeps follows slowly, in restFollow.ipp
+    struct Motion
+    {
+        double kinetic = 0;
+        Vector3 momentum{};
+    };
+    bool follows() const { return rests() && scene_.rest->follow; }
+    void catchUp();
+    void keepUp(double dt);
+    void kickSleepers(double dt);
+    bool followMotion(const std::vector<Index>& which, double T, bool projects);
+    void rouse(Index tile);
+    std::vector<Index> sleepingTiles() const;
+    std::vector<Index> blocksOf(const std::vector<Index>& tiles) const;
+    Motion motionOfSleepers() const;
+    std::vector<TileSums> passOverSleepers(const std::vector<Index>& which, double dt, const Pass& pass);
 
     void placeActors(double dt);
     void reportActors(double dt);
@@ -371,6 +391,10 @@ class ExplicitStepper : public Stepper
     std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
+    Motion resting_;                                       ///< of what sleeps
+    std::vector<char> motionKnown_;        ///< by block: 1: restingMotion_ is up to date, 2: and nothing sleeps there
+    std::vector<Record> restingMotion_;    ///< (m, p, v) of what sleeps, by place of a node
+    std::vector<Index> waking_;                            ///< tiles that follow and wake in the next step
     std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
     std::vector<char> longEdges_; ///< tiles in which a particle may have to be split

@@ -40,6 +40,7 @@ struct Rest
 {
     double tolerance = 1e-6; ///< eps [-]
     Index looks = 5;
+    bool follow = false;
 
     static constexpr double quietShare = 0.5; ///< of what wakes: less is quiet
 };
