@@ -305,6 +305,7 @@ class ExplicitStepper : public Stepper
     bool rests() const { return scene_.rest.has_value(); }
     void prepareRest();
     void choosePlaces();
+    void findParts();
     bool isDriven(const state::Tile& tile) const;
     bool disturbsEverywhere() const;
     void lookForRest();
@@ -348,7 +349,7 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void forEachRow(Body&& body); ///< of the blocks reached_
     template <class Body>
-    void forEachRow(const std::vector<Index>& blocks, Body&& body);
+    void forEachRow(const std::vector<Index>& blocks, Body&& body, bool inPart = false);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
     [[noreturn]] void failOutside() const;
 
@@ -389,6 +390,8 @@ class ExplicitStepper : public Stepper
     std::vector<double> viscosities_;                      ///< eta of each material
     std::vector<Index> awake_;                             ///< tiles whose particles take part in the step, ascending
     std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
+    std::vector<state::NodeBox> parts_; ///< of blocks, that tiles awake reach; empty: whole blocks are solved
+    bool inPart_ = false;               ///< are parts of blocks solved in the step at hand?
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
     Motion resting_;                                       ///< of what sleeps

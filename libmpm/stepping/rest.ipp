@@ -39,6 +39,7 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
             awake_.push_back(Index(t));
     report_.resting = sleeping;
     reached_.clear();
+    parts_.clear();
     if (sleeping == 0)
     {
         reached_.resize(grid_.blocks().size());
@@ -52,6 +53,26 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
     for (std::size_t b = 0; b < reached.size(); ++b)
         if (reached[b])
             reached_.push_back(Index(b));
+    if (follows()) // nothing wakes within a step
+        findParts();
+}
+
+/// Of each block the box of nodes that tiles awake reach.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::findParts()
+{
+    parts_.assign(grid_.blocks().size(), {});
+    for (const Index t : awake_)
+    {
+        const auto& tile = grid_.tiles()[std::size_t(t)];
+        for (const auto& overlap : tile.blocks)
+        {
+            auto& part = parts_[std::size_t(overlap.block)];
+            const auto own = tile.window.moved(overlap.move).common(grid_.blocks()[std::size_t(overlap.block)].box);
+            if (own.size() > 0)
+                part = part.size() == 0 ? own : part.around(own);
+        }
+    }
 }
 
 /// Is a wall or gravity about to disturb a tile by itself?
@@ -240,7 +261,8 @@ double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const s
         if (!solved[std::size_t(overlap.block)])
             continue;
         const auto& block = grid_.blocks()[std::size_t(overlap.block)];
-        const auto box = tile.window.moved(overlap.move), both = box.common(block.box);
+        const auto box = tile.window.moved(overlap.move);
+        const auto both = box.common(inPart_ ? parts_[std::size_t(overlap.block)] : block.box);
         for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
             for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
                 for (Index i = both.lo[0]; i < both.lo[0] + both.n[0]; ++i)
@@ -293,7 +315,7 @@ void ExplicitStepper<dim, Shape>::holdResting(const std::vector<Index>& blocks)
                 }
             }
         }
-    });
+    }, inPart_);
     for (const auto& block : blockSums_)
         for (int a = 0; a < dim; ++a)
             state_.ledger.restImpulse[a] += block.restImpulse[a];

@@ -235,10 +235,12 @@ const Record* ExplicitStepper<dim, Shape>::restingMotion(const nodal::NodeRow<di
                 known = 1;
         nodal::NodeRow<dim> each = row;
         const auto& box = block.box;
+        each.begin = box.lo[0];
+        each.end = box.lo[0] + box.n[0];
         for (each.k = box.lo[2]; known == 1 && each.k < box.lo[2] + box.n[2]; ++each.k)
             for (each.j = box.lo[1]; each.j < box.lo[1] + box.n[1]; ++each.j)
                 sumRestingMotion(each, block,
-                                 restingMotion_.data() + block.start + box.offset(row.begin, each.j, each.k));
+                                 restingMotion_.data() + block.start + box.offset(each.begin, each.j, each.k));
     }
     if (known == 2)
         return nullptr;
