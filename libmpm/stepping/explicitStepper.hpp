@@ -387,18 +387,18 @@ class ExplicitStepper : public Stepper
     std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
     std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
     double relaxationRate_ = 0, flowMemory_ = 0;
-    std::vector<double> viscosities_;                      ///< eta of each material
-    std::vector<Index> awake_;                             ///< tiles whose particles take part in the step, ascending
-    std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
+    std::vector<double> viscosities_;   ///< eta of each material
+    std::vector<Index> awake_;          ///< tiles whose particles take part in the step, ascending
+    std::vector<Index> reached_;        ///< blocks of nodes these reach, ascending
     std::vector<state::NodeBox> parts_; ///< of blocks, that tiles awake reach; empty: whole blocks are solved
     bool inPart_ = false;               ///< are parts of blocks solved in the step at hand?
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
     Motion resting_;                                       ///< of what sleeps
-    std::vector<char> motionKnown_;        ///< by block: 1: restingMotion_ is up to date, 2: and nothing sleeps there
-    std::vector<Record> restingMotion_;    ///< (m, p, v) of what sleeps, by place of a node
-    std::vector<Index> waking_;                            ///< tiles that follow and wake in the next step
-    std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
+    std::vector<char> motionKnown_;     ///< by block: 1: restingMotion_ is up to date, 2: and nothing sleeps there
+    std::vector<Record> restingMotion_; ///< (m, p, v) of what sleeps, by place of a node
+    std::vector<Index> waking_;         ///< tiles that follow and wake in the next step
+    std::vector<std::array<double, 2>> bulkViscosities_; ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
     std::vector<char> longEdges_; ///< tiles in which a particle may have to be split
     std::vector<nodal::NodeSums> blockSums_;

@@ -253,16 +253,19 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         for (auto& surface : carriers_)
             surface.scatter(state_.grid, grid_, smallestMass_);
     }
-    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        if (!loaded)
-            sumNodes<transfer::Forces>(row, block);
-        row.dt = kick_;
-        solveRow(row);
-        if (shared(block))
-            keepRow(row, block);
-        else
-            finishRow(row);
-    }, inPart_);
+    forEachRow(
+        blocks,
+        [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            if (!loaded)
+                sumNodes<transfer::Forces>(row, block);
+            row.dt = kick_;
+            solveRow(row);
+            if (shared(block))
+                keepRow(row, block);
+            else
+                finishRow(row);
+        },
+        inPart_);
     nodal::NodeSums sums;
     for (const auto& block : blockSums_)
         sums += block;

@@ -123,7 +123,9 @@ void ExplicitStepper<dim, Shape>::lookForRest()
     for (const Index t : awake_)
     {
         const auto& tile = grid_.tiles()[std::size_t(t)];
-        const bool quiet = !isDriven(tile) && disturbance(tile, solved) <= (follows() ? Rest::quietShare / double(scene_.sortInterval) : Rest::quietShare);
+        const bool quiet =
+            !isDriven(tile) && disturbance(tile, solved) <=
+                                   (follows() ? Rest::quietShare / double(scene_.sortInterval) : Rest::quietShare);
         for (Index i = tile.first; i < tile.first + tile.count; ++i)
         {
             double& looks = state_.particles.quietLooks[std::size_t(i)];
@@ -192,7 +194,8 @@ void ExplicitStepper<dim, Shape>::layToRest()
     choosePlaces();
     forgetRestingMotion();
     resting_ = follows() ? motionOfSleepers() : Motion{};
-    restingMotion_.resize(grid_.blocks().empty() ? 0 : grid_.blocks().back().start + std::size_t(grid_.blocks().back().box.size()));
+    restingMotion_.resize(
+        grid_.blocks().empty() ? 0 : grid_.blocks().back().start + std::size_t(grid_.blocks().back().box.size()));
 }
 
 /// Wakes the tiles at rest that nodes solved so far disturb. Returns the blocks that then are to be solved too.
@@ -211,7 +214,9 @@ std::vector<Index> ExplicitStepper<dim, Shape>::wake(const std::vector<char>& so
             disturbed[std::size_t(t)] = !(unbalanced <= 1);
             left[std::size_t(t)] = unbalanced <= 1 ? unbalanced : 0;
         }
-    report_.restingStress = restStress_ * (count > 0 ? *std::max_element(left.begin(), left.end()) : 0);
+    if (count > 0)
+        report_.restingStress =
+            std::max(report_.restingStress, restStress_ * *std::max_element(left.begin(), left.end()));
     bool any = false;
     for (Index t = 0; t < count; ++t)
         if (disturbed[std::size_t(t)])
@@ -291,34 +296,44 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::holdResting(const std::vector<Index>& blocks)
 {
     const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
-    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
-        sumWindows(row, block, sum);
-        const Record* motion = restingMotion(row, block);
-        for (Index i = row.begin; i < row.end; ++i)
-        {
-            Record& r = row.node[i];
-            const Record projected = transfer::finishNode<dim>(sum[i - row.begin]);
-            const Record sleeping = motion ? motion[i] : Record{};
-            const double resting = sleeping[0];
-            const bool held = resting > smallestMass_;
-            for (int a = 0; a < dim; ++a)
+    forEachRow(
+        blocks,
+        [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
+            sumWindows(row, block, sum);
+            const Record* motion = restingMotion(row, block);
+            for (Index i = row.begin; i < row.end; ++i)
             {
-                const double after = r[1 + a], change = kick_ * r[1 + dim + a], own = sleeping[1 + dim + a];
-                row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
-                                            alpha * (resting * (after - change) - sleeping[1 + a]) -
-                                            (held ? (r[0] - resting) * (after - own) : 0);
-                if (held)
+                Record& r = row.node[i];
+                const Record projected = transfer::finishNode<dim>(sum[i - row.begin]);
+                const Record sleeping = motion ? motion[i] : Record{};
+                const double resting = sleeping[0];
+                const bool held = resting > smallestMass_;
+                if (held && r[0] - resting > smallestMass_)
+                    row.sums->restWork -= kick_ * sleeping[7];
+                for (int a = 0; a < dim; ++a)
                 {
-                    r[1 + a] = own;
-                    r[1 + dim + a] = (own + change - after) / kick_;
+                    const double after = r[1 + a], change = kick_ * r[1 + dim + a], own = sleeping[1 + dim + a];
+                    row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
+                                                alpha * (resting * (after - change) - sleeping[1 + a]) -
+                                                (held ? (r[0] - resting) * (after - own) : 0);
+                    if (held)
+                    {
+                        r[1 + a] = own;
+                        r[1 + dim + a] = (own + change - after) / kick_;
+                    }
                 }
             }
-        }
-    }, inPart_);
+        },
+        inPart_);
     for (const auto& block : blockSums_)
         for (int a = 0; a < dim; ++a)
             state_.ledger.restImpulse[a] += block.restImpulse[a];
+    double given = 0;
+    for (const auto& block : blockSums_)
+        given += block.restWork;
+    state_.ledger.restLoss += given; // and takes it as it follows
+    state_.ledger.transferLoss -= given;
     state_.ledger.restingSteps += report_.resting;
 }
 

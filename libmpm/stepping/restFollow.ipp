@@ -201,7 +201,7 @@ bool ExplicitStepper<dim, Shape>::followMotion(const std::vector<Index>& which, 
         ledger.apexReturns += s.apexReturns;
         stray = stray || s.stray;
     }
-    double fall = 0;
+    double fall = 0, drag = 0;
     for (const Index t : which)
     {
         const auto& tile = grid_.tiles()[std::size_t(t)];
@@ -212,17 +212,23 @@ bool ExplicitStepper<dim, Shape>::followMotion(const std::vector<Index>& which, 
                 const auto next = next_[a][std::size_t(i)];
                 if (scene_.gravity)
                     fall += p.mass[std::size_t(i)] * (*scene_.gravity)[std::size_t(a)] * (next - x);
+                if (scene_.relaxationTime)
+                {
+                    const double v = p.v[a][std::size_t(i)];
+                    drag += p.mass[std::size_t(i)] * v * v * T / *scene_.relaxationTime;
+                }
                 x = next;
             }
     }
     ledger.gravityWork += fall;
-    ledger.restLoss += fall;
+    ledger.dampingDissipation += drag;
+    ledger.restLoss += fall - drag;
     p.padLastChunk();
     return stray;
 }
 
-/// motion[i] = mass, momentum and velocity of what sleeps at node i of a row; null where nothing does. Kept until
-/// tiles fall asleep, wake or are set in motion.
+/// motion[i] = mass, momentum, velocity and (last) power of the internal forces of what sleeps at node i of a row; null
+/// where nothing does. Kept until tiles fall asleep, wake or are set in motion.
 template <int dim, class Shape>
 const Record* ExplicitStepper<dim, Shape>::restingMotion(const nodal::NodeRow<dim>& row, const state::Block& block)
 {
@@ -261,11 +267,19 @@ void ExplicitStepper<dim, Shape>::sumRestingMotion(nodal::NodeRow<dim> row, cons
             continue;
         const Record* own = grid_.template window<Record>(tile) + box.offset(begin, row.j, row.k);
         for (Index i = begin; i < end; ++i)
-            for (int n = 0; n <= dim; ++n)
-                motion[i - row.begin][n] += own[i - begin][n];
+        {
+            const Record node = transfer::finishNode<dim>(own[i - begin]);
+            for (int n = 0; n <= 2 * dim; ++n)
+                motion[i - row.begin][n] += node[n];
+        }
     }
     if (!follows())
+    {
+        for (Index i = row.begin; i < row.end; ++i)
+            for (int a = 0; a < dim; ++a)
+                motion[i - row.begin][1 + dim + a] = 0;
         return;
+    }
     Record nodes[1 << state::TileLayout::bitsOf(dim)];
     row.node = nodes - row.begin;
     for (Index i = row.begin; i < row.end; ++i)
@@ -279,8 +293,14 @@ void ExplicitStepper<dim, Shape>::sumRestingMotion(nodal::NodeRow<dim> row, cons
         if (!wall.wall().motion)
             wall.follow(row);
     for (Index i = row.begin; i < row.end; ++i)
+    {
+        Record& m = motion[i - row.begin];
         for (int a = 0; a < dim; ++a)
-            motion[i - row.begin][1 + dim + a] = row.node[i][row.trial + a];
+        {
+            m[7] += m[1 + dim + a] * row.node[i][row.trial + a];
+            m[1 + dim + a] = row.node[i][row.trial + a];
+        }
+    }
 }
 
 /// Strain energy of a tile, chunk by chunk.
