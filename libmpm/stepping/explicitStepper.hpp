@@ -17,6 +17,7 @@
 #include "stepping/sceneOf.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
+#include "stepping/tileSums.hpp"
 #include "transfer/affine.hpp"
 #include "transfer/chunkColumns.hpp"
 #include "transfer/cornerWeights.hpp"
@@ -109,23 +110,6 @@ class ExplicitStepper : public Stepper
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
     bool relaxes() const;
-
-    /// Sums over one tile; added in the order of the tiles.
-    struct TileSums
-    {
-        double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
-        double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
-        double strainWork = 0;       ///< the same with stress and volume after it
-        double strainEnergy = 0, finiteStrainWork = 0;
-        double relaxationLoss = 0, averagingLoss = 0, viscosityLoss = 0, gapWork = 0, bulkViscosityLoss = 0;
-        Vector3 momentum{};
-        double fastest = 0; ///< max v.v
-        double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
-        Index apexReturns = 0, cappedDomains = 0;
-        Index badParticle = -1; ///< index of a particle that cannot go on
-        bool stray = false;     ///< a particle has left its tile's window, or the grid
-        bool longEdges = false; ///< a particle may have to be split; where the next step looks
-    };
 
     /// One thread's chunk of particles and node windows.
     struct Workspace
@@ -305,7 +289,6 @@ class ExplicitStepper : public Stepper
     bool rests() const { return scene_.rest.has_value(); }
     void prepareRest();
     void choosePlaces();
-    void findParts();
     bool isDriven(const state::Tile& tile) const;
     bool disturbsEverywhere() const;
     void lookForRest();
@@ -316,26 +299,16 @@ class ExplicitStepper : public Stepper
     std::vector<Index> wake(const std::vector<char>& solved);
     const Record* restingMotion(const nodal::NodeRow<dim>& row, const state::Block& block);
     void sumRestingMotion(nodal::NodeRow<dim> row, const state::Block& block, Record* motion);
-    void forgetRestingMotion() { motionKnown_.assign(grid_.blocks().size(), 0); }
     double energyOf(const state::Tile& tile);
     void holdResting(const std::vector<Index>& blocks);
     void holdStrainVelocities();
-
     // what sleeps follows slowly, in restFollow.ipp
-    struct Motion
-    {
-        double kinetic = 0;
-        Vector3 momentum{};
-    };
     bool follows() const { return rests() && scene_.rest->follow; }
     void catchUp();
     void keepUp(double dt);
     void kickSleepers(double dt);
     bool followMotion(const std::vector<Index>& which, double T, bool projects);
-    void rouse(Index tile);
-    std::vector<Index> sleepingTiles() const;
-    std::vector<Index> blocksOf(const std::vector<Index>& tiles) const;
-    Motion motionOfSleepers() const;
+    MotionOfSleepers motionOfSleepers() const;
     std::vector<TileSums> passOverSleepers(const std::vector<Index>& which, double dt, const Pass& pass);
 
     void placeActors(double dt);
@@ -394,7 +367,7 @@ class ExplicitStepper : public Stepper
     bool inPart_ = false;               ///< are parts of blocks solved in the step at hand?
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
-    Motion resting_;                                       ///< of what sleeps
+    MotionOfSleepers resting_;                             ///< of what sleeps
     std::vector<char> motionKnown_;     ///< by block: 1: restingMotion_ is up to date, 2: and nothing sleeps there
     std::vector<Record> restingMotion_; ///< (m, p, v) of what sleeps, by place of a node
     std::vector<Index> waking_;         ///< tiles that follow and wake in the next step

@@ -57,4 +57,10 @@ struct Rest
 
     static constexpr double quietShare = 0.5; ///< of what wakes: less is quiet
 };
+
+struct MotionOfSleepers
+{
+    double kinetic = 0; ///< [J]
+    Vector3 momentum{}; ///< [N s]
+};
 } // namespace mpm::stepping

@@ -9,6 +9,24 @@
 
 namespace mpm::stepping
 {
+/// Of each block the box of nodes that some tiles reach.
+inline std::vector<state::NodeBox> partsOf(const state::TileGrid& grid, const std::vector<Index>& tiles)
+{
+    std::vector<state::NodeBox> parts(grid.blocks().size());
+    for (const Index t : tiles)
+    {
+        const auto& tile = grid.tiles()[std::size_t(t)];
+        for (const auto& overlap : tile.blocks)
+        {
+            auto& part = parts[std::size_t(overlap.block)];
+            const auto own = tile.window.moved(overlap.move).common(grid.blocks()[std::size_t(overlap.block)].box);
+            if (own.size() > 0)
+                part = part.size() == 0 ? own : part.around(own);
+        }
+    }
+    return parts;
+}
+
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::prepareRest()
 {
@@ -54,25 +72,7 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
         if (reached[b])
             reached_.push_back(Index(b));
     if (follows()) // nothing wakes within a step
-        findParts();
-}
-
-/// Of each block the box of nodes that tiles awake reach.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::findParts()
-{
-    parts_.assign(grid_.blocks().size(), {});
-    for (const Index t : awake_)
-    {
-        const auto& tile = grid_.tiles()[std::size_t(t)];
-        for (const auto& overlap : tile.blocks)
-        {
-            auto& part = parts_[std::size_t(overlap.block)];
-            const auto own = tile.window.moved(overlap.move).common(grid_.blocks()[std::size_t(overlap.block)].box);
-            if (own.size() > 0)
-                part = part.size() == 0 ? own : part.around(own);
-        }
-    }
+        parts_ = partsOf(grid_, awake_);
 }
 
 /// Is a wall or gravity about to disturb a tile by itself?
@@ -192,8 +192,8 @@ void ExplicitStepper<dim, Shape>::layToRest()
     }
     p.padLastChunk();
     choosePlaces();
-    forgetRestingMotion();
-    resting_ = follows() ? motionOfSleepers() : Motion{};
+    motionKnown_.assign(grid_.blocks().size(), 0);
+    resting_ = follows() ? motionOfSleepers() : MotionOfSleepers{};
     restingMotion_.resize(
         grid_.blocks().empty() ? 0 : grid_.blocks().back().start + std::size_t(grid_.blocks().back().box.size()));
 }
@@ -242,7 +242,7 @@ std::vector<Index> ExplicitStepper<dim, Shape>::wake(const std::vector<char>& so
     if (!any)
         return more;
     choosePlaces();
-    forgetRestingMotion();
+    motionKnown_.assign(grid_.blocks().size(), 0);
     if (report_.resting == 0)
         restingEnergy_ = 0;
     for (const Index b : reached_)

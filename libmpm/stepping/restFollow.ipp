@@ -8,6 +8,34 @@
 
 namespace mpm::stepping
 {
+inline void rouse(state::Particles& particles, const state::Tile& tile)
+{
+    std::fill_n(particles.quietLooks.begin() + tile.first, tile.count, 0.0);
+}
+
+inline std::vector<Index> sleepingTiles(const state::TileGrid& grid)
+{
+    std::vector<Index> sleeping;
+    for (std::size_t t = 0; t < grid.tiles().size(); ++t)
+        if (grid.tiles()[t].resting)
+            sleeping.push_back(Index(t));
+    return sleeping;
+}
+
+/// Of nodes that some tiles reach.
+inline std::vector<Index> blocksOf(const state::TileGrid& grid, const std::vector<Index>& tiles)
+{
+    std::vector<char> reached(grid.blocks().size());
+    for (const Index t : tiles)
+        for (const auto& overlap : grid.tiles()[std::size_t(t)].blocks)
+            reached[std::size_t(overlap.block)] = 1;
+    std::vector<Index> blocks;
+    for (std::size_t b = 0; b < reached.size(); ++b)
+        if (reached[b])
+            blocks.push_back(Index(b));
+    return blocks;
+}
+
 /// Before a step: at a look all that sleeps does what it was to do since the last; then it is sorted with the rest.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::catchUp()
@@ -16,14 +44,14 @@ void ExplicitStepper<dim, Shape>::catchUp()
         return;
     if (!arranged_)
         buildTiles();
-    const auto sleepers = sleepingTiles();
+    const auto sleepers = sleepingTiles(grid_);
     if (sleepers.empty())
         return;
     if (!projected_ || stray_)
         projectAgain(firstProjection());
     followMotion(sleepers, double(scene_.sortInterval) * state_.deltaT, false);
     for (const Index t : waking_)
-        rouse(t);
+        rouse(state_.particles, grid_.tiles()[std::size_t(t)]);
     waking_.clear();
 }
 
@@ -41,13 +69,13 @@ void ExplicitStepper<dim, Shape>::keepUp(double dt)
     for (const Index t : waking_)
     {
         grid_.setResting(t, false);
-        rouse(t);
+        rouse(state_.particles, grid_.tiles()[std::size_t(t)]);
         const auto& tile = grid_.tiles()[std::size_t(t)];
         restingEnergy_ -= energyOf(tile);
     }
     waking_.clear();
     choosePlaces();
-    forgetRestingMotion();
+    motionKnown_.assign(grid_.blocks().size(), 0);
     resting_ = motionOfSleepers();
     if (!stray)
         return;
@@ -59,41 +87,10 @@ void ExplicitStepper<dim, Shape>::keepUp(double dt)
 }
 
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::rouse(Index t)
-{
-    const auto& tile = grid_.tiles()[std::size_t(t)];
-    std::fill_n(state_.particles.quietLooks.begin() + tile.first, tile.count, 0.0);
-}
-
-template <int dim, class Shape>
-std::vector<Index> ExplicitStepper<dim, Shape>::sleepingTiles() const
-{
-    std::vector<Index> sleeping;
-    for (std::size_t t = 0; t < grid_.tiles().size(); ++t)
-        if (grid_.tiles()[t].resting)
-            sleeping.push_back(Index(t));
-    return sleeping;
-}
-
-template <int dim, class Shape>
-std::vector<Index> ExplicitStepper<dim, Shape>::blocksOf(const std::vector<Index>& tiles) const
-{
-    std::vector<char> reached(grid_.blocks().size());
-    for (const Index t : tiles)
-        for (const auto& overlap : grid_.tiles()[std::size_t(t)].blocks)
-            reached[std::size_t(overlap.block)] = 1;
-    std::vector<Index> blocks;
-    for (std::size_t b = 0; b < reached.size(); ++b)
-        if (reached[b])
-            blocks.push_back(Index(b));
-    return blocks;
-}
-
-template <int dim, class Shape>
-auto ExplicitStepper<dim, Shape>::motionOfSleepers() const -> Motion
+MotionOfSleepers ExplicitStepper<dim, Shape>::motionOfSleepers() const
 {
     const auto& p = state_.particles;
-    Motion m;
+    MotionOfSleepers m;
     for (const auto& tile : grid_.tiles())
         for (Index i = tile.first; tile.resting && i < tile.first + tile.count; ++i)
             for (int a = 0; a < dim; ++a)
@@ -107,8 +104,9 @@ auto ExplicitStepper<dim, Shape>::motionOfSleepers() const -> Motion
 
 /// A pass over some tiles on its own; its sums, in the order of the tiles.
 template <int dim, class Shape>
-auto ExplicitStepper<dim, Shape>::passOverSleepers(const std::vector<Index>& which, double dt, const Pass& pass)
-    -> std::vector<TileSums>
+std::vector<TileSums> ExplicitStepper<dim, Shape>::passOverSleepers(const std::vector<Index>& which, double dt,
+                                                                    const Pass& pass)
+
 {
     Clock clock(particleSeconds_);
     std::vector<TileSums> sums(which.size());
@@ -134,12 +132,12 @@ auto ExplicitStepper<dim, Shape>::passOverSleepers(const std::vector<Index>& whi
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::kickSleepers(double dt)
 {
-    const auto sleepers = sleepingTiles();
+    const auto sleepers = sleepingTiles(grid_);
     if (sleepers.empty())
         return;
     const double longer = double(scene_.sortInterval);
     kick_ = dt / longer;
-    forEachRow(blocksOf(sleepers), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+    forEachRow(blocksOf(grid_, sleepers), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         sumNodes<transfer::Forces>(row, block);
         nodal::NodeSums unbooked;
         row.sums = &unbooked;
@@ -152,15 +150,15 @@ void ExplicitStepper<dim, Shape>::kickSleepers(double dt)
         rows.clear();
     Pass pass = completed({.velocity = true, .then = Project::forces});
     pass.alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * longer * dt) : 0;
-    const Motion before = resting_;
+    const MotionOfSleepers before = resting_;
     passOverSleepers(sleepers, 0, pass);
-    const Motion after = motionOfSleepers();
+    const MotionOfSleepers after = motionOfSleepers();
     state_.ledger.restLoss -= after.kinetic - before.kinetic;
     state_.ledger.kineticEnergy += after.kinetic - before.kinetic;
     for (int a = 0; a < dim; ++a)
         state_.ledger.restImpulse[a] += after.momentum[a] - before.momentum[a];
     resting_ = after;
-    forgetRestingMotion();
+    motionKnown_.assign(grid_.blocks().size(), 0);
 }
 
 /// Moves and strains tiles that sleep over a time T by the velocity field they have had. Is any particle a stray then?
@@ -169,7 +167,7 @@ bool ExplicitStepper<dim, Shape>::followMotion(const std::vector<Index>& which, 
 {
     auto& p = state_.particles;
     kick_ = 0;
-    forEachRow(blocksOf(which), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+    forEachRow(blocksOf(grid_, which), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         const Record* motion = restingMotion(row, block);
         for (Index i = row.begin; i < row.end; ++i)
         {
