@@ -1,10 +1,12 @@
 // Who sleeps (rest.hpp), which tiles and blocks a step goes over, and what wakes.
 #pragma once
+#include "base/error.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/explicitStepper.hpp"
 #include "stepping/timeStep.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace mpm::stepping
@@ -33,6 +35,11 @@ void ExplicitStepper<dim, Shape>::prepareRest()
     state_.particles.keep(&state::Particles::quietLooks, rests());
     if (!rests())
         return;
+    if (follows() && !scene_.carried.empty())
+        throw InputError(
+            fmt::format("system/mpmSchemes: rest.follow: found yes beside the surface '{}', which may carry "
+                        "loads; allowed: no, as what these do is known step by step only",
+                        scene_.carried.front()->name));
     restWave_ = std::numeric_limits<double>::infinity();
     for (const auto& material : scene_.materials)
         if (!material.law->rigid() && material.waveSpeed() < restWave_)
