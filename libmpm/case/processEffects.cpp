@@ -179,8 +179,11 @@ Effect restEffect()
         if (slept == 0)
             return {0, "steps", "nothing slept", false};
         return {double(slept), "steps",
-                fmt::format("{} steps of particles slept through, {} tiles woken, took {}", slept,
-                            run.grown(&Ledger::wakes), run.share(run.grown(&Ledger::restLoss)))};
+                fmt::format("{:.1f} % of the particles' steps slept through, {} tiles woken, at most {:.3g} Pa out of "
+                            "balance, took {}",
+                            100 * double(slept) / (double(run.steps) * double(run.state.particles.size())),
+                            run.grown(&Ledger::wakes), run.report.restingStress,
+                            run.share(run.grown(&Ledger::restLoss)))};
     };
     return e;
 }

@@ -193,6 +193,10 @@ SceneOfCase readScene(const CaseDirectory& folder, state::State& state, const Ov
     if (out.scene.rest && out.scene.contact)
         schemes.fail("rest", "it beside constant/contactProperties",
                      "one of the two: what lies on another body does not rest alone");
+    if (out.scene.rest && out.scene.rest->follow && (!out.scene.loads.empty() || !out.scene.absorbing.empty()))
+        schemes.fail("rest",
+                     fmt::format("follow yes with {}", out.scene.loads.empty() ? "absorbing boundaries" : "loads"),
+                     "follow no: what these do is known step by step only");
     if (out.scene.rest && out.scene.treatment.any())
         schemes.fail("rest", "it with a stressTreatment",
                      "one of the two: treatments take averages over what may sleep");

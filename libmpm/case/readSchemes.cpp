@@ -86,6 +86,7 @@ stepping::Rest readRest(const Dictionary& all, const Dictionary& d, const steppi
         {"tolerance", "strain of waves that may be ignored", unit::none, {0, 1e-2, true, false}, rest.tolerance});
     rest.looks = d.get<Index>(
         {"looks", "looks in a row at which a tile has to be quiet", unit::none, Bound::atLeast(1), rest.looks});
+    rest.follow = d.get<bool>({"follow", "what sleeps follows slowly", unit::none, {}, rest.follow});
     if (scene.transfer != stepping::Transfer::FLIP ||
         scene.timeIntegration != stepping::TimeIntegration::symplecticEuler)
         all.fail("rest", "it with " + stepping::methodText(scene), "it with FLIP and symplecticEuler only");

@@ -45,6 +45,11 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     monitor_->begin(state_, scene_.scene);
     restWaveSpeed_ = stepping::fastestWave(state_, scene_.scene.materials);
     limit_ = stabilityLimit();
+    if (runTime_->adjustable() && scene_.scene.rest && scene_.scene.rest->follow)
+        throw InputError(
+            control.where("adjustTimeStep"),
+            "adjustTimeStep: found yes beside rest { follow yes; }; allowed: no, as what sleeps takes long "
+            "steps of a fixed time");
     const bool goesOn = state_.step > 0 && state_.deltaT == runTime_->deltaT(); // an uninterrupted run would, too
     if (!runTime_->adjustable() && runTime_->deltaT() > limit_.deltaT && !goesOn)
         throw InputError(
@@ -66,7 +71,6 @@ SolverRun::SolverRun(const CaseDirectory& folder, const Options& options, const 
     peakKinetic_ = state_.ledger.kineticEnergy;
     firstLedger_ = state_.ledger;
     firstStep_ = writtenStep_ = limitStep_ = state_.step;
-    firstRestingSteps_ = state_.ledger.restingSteps;
 }
 
 SolverRun::~SolverRun() = default;

@@ -118,7 +118,7 @@ class SolverRun
     double stepSeconds_ = 0;
     state::Ledger firstLedger_;                 ///< of the state the run began with
     double smallestStep_ = 0, largestStep_ = 0; ///< [s]
-    Index firstStep_ = 0, writtenStep_ = 0, firstRestingSteps_ = 0;
+    Index firstStep_ = 0, writtenStep_ = 0;
     Index limitStep_ = 0; ///< the step limit_ was made anew at
 };
 } // namespace mpm::cases

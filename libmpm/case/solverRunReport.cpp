@@ -151,8 +151,9 @@ void SolverRun::banner() const
                                       s.splitting->mode == splitting::Mode::fourWay ? "fourWay" : "stretched",
                                       s.splitting->threshold, s.splitting->interval));
     if (s.rest)
-        line("rest", fmt::format("waves below a strain of {:g} ({:g} Pa) may be ignored, a look every {} steps",
-                                 s.rest->tolerance, s.rest->tolerance * softest(s.materials), s.sortInterval));
+        line("rest", fmt::format("waves below a strain of {:g} ({:g} Pa) may be ignored, a look every {} steps{}",
+                                 s.rest->tolerance, s.rest->tolerance * softest(s.materials), s.sortInterval,
+                                 s.rest->follow ? "; what sleeps follows slowly" : ""));
     if (s.merging)
         line("merging", fmt::format("of edges under {:g} seeding spacings, every {} steps", s.merging->threshold,
                                     s.merging->interval));
@@ -269,10 +270,6 @@ void SolverRun::summary()
         add(treatment.tensionGap, "open gaps hold", l.gapWork);
         line("stresses", text);
     }
-    if (scene_.scene.rest && steps > 0)
-        line("rest", fmt::format("{:.1f} % of the particles' steps slept through, {} tiles woken, {:.3g} {} taken",
-                                 100 * double(l.restingSteps - firstRestingSteps_) / profile_.particleSteps(), l.wakes,
-                                 l.restLoss / 1e3, unit));
     line("residual",
          fmt::format("{:.4g} {}{}", mismatch / 1e3, unit,
                      supplied > 0 ? fmt::format(", {:.2f} % of the work supplied", 100 * mismatch / supplied) : ""));

@@ -52,6 +52,7 @@ struct NodeSums
     double motionWork = 0;      ///< sum J . V of impulses J by walls that move at V [J]
     double unbalancedForce = 0; ///< sum |m (v* - v_i)/dt| by components no wall holds [N]; with local damping only
     double appliedForce = 0;    ///< sum |f| by components over the projected forces [N]; the same
+    double restWork = 0;        ///< done on what sleeps and follows at nodes it shares [J]
     Index contacts = 0;         ///< nodes at which a friction wall pressed
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]

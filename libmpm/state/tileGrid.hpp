@@ -87,6 +87,17 @@ struct NodeBox
             box.lo[a] += by[a];
         return box;
     }
+    /// The smallest box around both.
+    NodeBox around(const NodeBox& o) const
+    {
+        NodeBox all;
+        for (int a = 0; a < 3; ++a)
+        {
+            all.lo[a] = std::min(lo[a], o.lo[a]);
+            all.n[a] = std::max(lo[a] + n[a], o.lo[a] + o.n[a]) - all.lo[a];
+        }
+        return all;
+    }
     /// The nodes both boxes hold; empty boxes have n = 0 somewhere.
     NodeBox common(const NodeBox& o) const
     {

@@ -49,12 +49,14 @@ void ExplicitStepper<dim, Shape>::book(const Pass& pass)
     auto& ledger = state_.ledger;
     if (pass.velocity)
     {
-        ledger.transferLoss -= total.kinetic - ledger.kineticEnergy;
-        ledger.kineticEnergy = total.kinetic;
+        ledger.transferLoss -= total.kinetic + resting_.kinetic - ledger.kineticEnergy;
+        ledger.kineticEnergy = total.kinetic + resting_.kinetic;
         ledger.bodyForceWork += total.bodyForceWork;
         work_.ofForcesBefore += 2 * total.bodyForceWork - total.bodyForceEnd;
         work_.ofForces += total.bodyForceEnd;
         report_.momentum = total.momentum;
+        for (int a = 0; a < dim; ++a)
+            report_.momentum[a] += resting_.momentum[a];
         report_.largestSpeed = std::max(std::sqrt(total.fastest), actorSpeed());
     }
     if (pass.strain)

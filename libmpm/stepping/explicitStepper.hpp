@@ -17,6 +17,7 @@
 #include "stepping/sceneOf.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
+#include "stepping/tileSums.hpp"
 #include "transfer/affine.hpp"
 #include "transfer/chunkColumns.hpp"
 #include "transfer/cornerWeights.hpp"
@@ -109,23 +110,6 @@ class ExplicitStepper : public Stepper
     bool conjugate() const { return averages() && scene_.treatment.averaging->conjugate; }
     /// Does the step at hand relax stresses?
     bool relaxes() const;
-
-    /// Sums over one tile; added in the order of the tiles.
-    struct TileSums
-    {
-        double kinetic = 0, plasticWork = 0, apexVolume = 0, bodyForceWork = 0, bodyForceEnd = 0;
-        double strainWorkBefore = 0; ///< sum V sigma : D dt with stress and volume before the update
-        double strainWork = 0;       ///< the same with stress and volume after it
-        double strainEnergy = 0, finiteStrainWork = 0;
-        double relaxationLoss = 0, averagingLoss = 0, viscosityLoss = 0, gapWork = 0, bulkViscosityLoss = 0;
-        Vector3 momentum{};
-        double fastest = 0; ///< max v.v
-        double smallestJacobian = 1, largestJacobian = 1, maxYield = 0;
-        Index apexReturns = 0, cappedDomains = 0;
-        Index badParticle = -1; ///< index of a particle that cannot go on
-        bool stray = false;     ///< a particle has left its tile's window, or the grid
-        bool longEdges = false; ///< a particle may have to be split; where the next step looks
-    };
 
     /// One thread's chunk of particles and node windows.
     struct Workspace
@@ -313,9 +297,19 @@ class ExplicitStepper : public Stepper
     void layToRest();
     double disturbance(const state::Tile& tile, const std::vector<char>& solved);
     std::vector<Index> wake(const std::vector<char>& solved);
-    bool restingMass(const nodal::NodeRow<dim>& row, const state::Block& block, double* mass);
+    const Record* restingMotion(const nodal::NodeRow<dim>& row, const state::Block& block);
+    void sumRestingMotion(nodal::NodeRow<dim> row, const state::Block& block, Record* motion);
+    double energyOf(const state::Tile& tile);
     void holdResting(const std::vector<Index>& blocks);
     void holdStrainVelocities();
+    // what sleeps follows slowly, in restFollow.ipp
+    bool follows() const { return rests() && scene_.rest->follow; }
+    void catchUp();
+    void keepUp(double dt);
+    void kickSleepers(double dt);
+    bool followMotion(const std::vector<Index>& which, double T, bool projects);
+    MotionOfSleepers motionOfSleepers() const;
+    std::vector<TileSums> passOverSleepers(const std::vector<Index>& which, double dt, const Pass& pass);
 
     void placeActors(double dt);
     void reportActors(double dt);
@@ -328,7 +322,7 @@ class ExplicitStepper : public Stepper
     template <class Body>
     void forEachRow(Body&& body); ///< of the blocks reached_
     template <class Body>
-    void forEachRow(const std::vector<Index>& blocks, Body&& body);
+    void forEachRow(const std::vector<Index>& blocks, Body&& body, bool inPart = false);
     [[noreturn]] void fail(Index particle, const std::string& what) const;
     [[noreturn]] void failOutside() const;
 
@@ -366,12 +360,18 @@ class ExplicitStepper : public Stepper
     std::array<state::Column<double>, dim * dim> gradient_;         ///< L between the two passes of an average
     std::array<state::Column<double>, stressSize<dim>> correction_; ///< T sigma - sigma of a relaxation
     double relaxationRate_ = 0, flowMemory_ = 0;
-    std::vector<double> viscosities_;                      ///< eta of each material
-    std::vector<Index> awake_;                             ///< tiles whose particles take part in the step, ascending
-    std::vector<Index> reached_;                           ///< blocks of nodes these reach, ascending
+    std::vector<double> viscosities_;   ///< eta of each material
+    std::vector<Index> awake_;          ///< tiles whose particles take part in the step, ascending
+    std::vector<Index> reached_;        ///< blocks of nodes these reach, ascending
+    std::vector<state::NodeBox> parts_; ///< of blocks, that tiles awake reach; empty: whole blocks are solved
+    bool inPart_ = false;               ///< are parts of blocks solved in the step at hand?
     double restSpeed_ = 0, restWave_ = 0, restStress_ = 0; ///< eps c_p, c_p, eps M of the slowest material
     double restingEnergy_ = 0;                             ///< strain energy of what sleeps
-    std::vector<std::array<double, 2>> bulkViscosities_;   ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
+    MotionOfSleepers resting_;                             ///< of what sleeps
+    std::vector<char> motionKnown_;     ///< by block: 1: restingMotion_ is up to date, 2: and nothing sleeps there
+    std::vector<Record> restingMotion_; ///< (m, p, v) of what sleeps, by place of a node
+    std::vector<Index> waking_;         ///< tiles that follow and wake in the next step
+    std::vector<std::array<double, 2>> bulkViscosities_; ///< rho_0 h b1 c_p and rho_0 (b2 h)^2 of each material
     std::vector<TileSums> tileSums_;
     std::vector<char> longEdges_; ///< tiles in which a particle may have to be split
     std::vector<nodal::NodeSums> blockSums_;

@@ -9,6 +9,7 @@
 #include "stepping/lawWork.ipp"
 #include "stepping/nodeWork.ipp"
 #include "stepping/rest.ipp"
+#include "stepping/restFollow.ipp"
 #include "stepping/stepReports.ipp"
 #include "stepping/stressTreatment.ipp"
 #include "stepping/velocityFilter.ipp"
@@ -87,12 +88,16 @@ void ExplicitStepper<dim, Shape>::particlesChanged()
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::step(double dt)
 {
+    if (follows())
+        catchUp();
     arrange();
     project();
     if (driven())
         placeActors(dt);
     if (contact_)
         contact_->place(state_.time, dt);
+    if (follows())
+        keepUp(dt);
     kick_ = scene_.staggeredStart && state_.step == 0 ? 0.5 * dt : dt;
     switch (scene_.stressUpdate)
     {

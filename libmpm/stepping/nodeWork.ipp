@@ -12,7 +12,7 @@ namespace mpm::stepping
 /// Calls body(row, block) for all rows of the blocks; sums go to the block's place.
 template <int dim, class Shape>
 template <class Body>
-void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, Body&& body)
+void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, Body&& body, bool inPart)
 {
     const int count = int(blocks.size());
     blockSums_.assign(grid_.blocks().size(), {});
@@ -25,7 +25,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, B
         {
             const auto b = std::size_t(blocks[std::size_t(n)]);
             const state::Block& block = grid_.blocks()[b];
-            const auto& box = block.box;
+            const auto& box = inPart ? parts_[b] : block.box;
             nodal::NodeRow<dim> row;
             row.time = state_.time;
             row.smallestMass = smallestMass_;
@@ -40,7 +40,7 @@ void ExplicitStepper<dim, Shape>::forEachRow(const std::vector<Index>& blocks, B
             for (row.k = box.lo[2]; row.k < box.lo[2] + box.n[2]; ++row.k)
                 for (row.j = box.lo[1]; row.j < box.lo[1] + box.n[1]; ++row.j)
                 {
-                    row.node = grid_.nodes(block) + box.offset(row.begin, row.j, row.k) - row.begin;
+                    row.node = grid_.nodes(block) + block.box.offset(row.begin, row.j, row.k) - row.begin;
                     walls.clear();
                     body(row, block);
                 }
@@ -54,9 +54,10 @@ template <class Node>
 void ExplicitStepper<dim, Shape>::sumWindows(const nodal::NodeRow<dim>& row, const state::Block& block, Node* sum)
 {
     grid_.template forEachWindow<Node>(block, row.j, row.k, [&](Index begin, Index end, const Node* in) {
-        Node* out = sum + (begin - row.begin);
-        for (Index i = 0; i < end - begin; ++i)
-            out[i] += in[i];
+        const Index first = std::max(begin, row.begin), last = std::min(end, row.end);
+        Node* out = sum - row.begin;
+        for (Index i = first; i < last; ++i)
+            out[i] += in[i - begin];
     });
 }
 
@@ -64,7 +65,7 @@ template <int dim, class Shape>
 template <class Body>
 void ExplicitStepper<dim, Shape>::forEachRow(Body&& body)
 {
-    forEachRow(reached_, body);
+    forEachRow(reached_, body, !parts_.empty());
 }
 
 /// The row's nodes: (m, p, f) summed over the windows of tiles.
@@ -216,7 +217,8 @@ void ExplicitStepper<dim, Shape>::solveNodes()
         return;
     }
     std::vector<Index> blocks = reached_;
-    if (look || disturbsEverywhere())
+    inPart_ = !parts_.empty() && !look && !disturbsEverywhere();
+    if (!inPart_ && (look || disturbsEverywhere()))
     {
         blocks.resize(grid_.blocks().size());
         std::iota(blocks.begin(), blocks.end(), Index(0));
@@ -233,6 +235,7 @@ void ExplicitStepper<dim, Shape>::solveNodes()
     if (look)
         lookForRest();
     holdResting(all);
+    inPart_ = false;
 }
 
 template <int dim, class Shape>
@@ -243,22 +246,26 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         loaded = loaded || surface.loads();
     if (loaded)
     {
-        forEachRow(blocks, [&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); });
+        forEachRow(
+            blocks, [&](auto& row, const auto& block) { sumNodes<transfer::Forces>(row, block); }, inPart_);
         for (std::size_t k = 0; k < tractions_.size(); ++k)
             tractions_[k].scatter(state_.patches[tractionPatch_[k]], state_.grid, grid_, smallestMass_);
         for (auto& surface : carriers_)
             surface.scatter(state_.grid, grid_, smallestMass_);
     }
-    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        if (!loaded)
-            sumNodes<transfer::Forces>(row, block);
-        row.dt = kick_;
-        solveRow(row);
-        if (shared(block))
-            keepRow(row, block);
-        else
-            finishRow(row);
-    });
+    forEachRow(
+        blocks,
+        [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            if (!loaded)
+                sumNodes<transfer::Forces>(row, block);
+            row.dt = kick_;
+            solveRow(row);
+            if (shared(block))
+                keepRow(row, block);
+            else
+                finishRow(row);
+        },
+        inPart_);
     nodal::NodeSums sums;
     for (const auto& block : blockSums_)
         sums += block;

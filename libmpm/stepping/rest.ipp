@@ -1,20 +1,45 @@
 // Who sleeps (rest.hpp), which tiles and blocks a step goes over, and what wakes.
 #pragma once
+#include "base/error.hpp"
 #include "stepping/energyBudget.hpp"
 #include "stepping/explicitStepper.hpp"
 #include "stepping/timeStep.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace mpm::stepping
 {
+/// Of each block the box of nodes that some tiles reach.
+inline std::vector<state::NodeBox> partsOf(const state::TileGrid& grid, const std::vector<Index>& tiles)
+{
+    std::vector<state::NodeBox> parts(grid.blocks().size());
+    for (const Index t : tiles)
+    {
+        const auto& tile = grid.tiles()[std::size_t(t)];
+        for (const auto& overlap : tile.blocks)
+        {
+            auto& part = parts[std::size_t(overlap.block)];
+            const auto own = tile.window.moved(overlap.move).common(grid.blocks()[std::size_t(overlap.block)].box);
+            if (own.size() > 0)
+                part = part.size() == 0 ? own : part.around(own);
+        }
+    }
+    return parts;
+}
+
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::prepareRest()
 {
     state_.particles.keep(&state::Particles::quietLooks, rests());
     if (!rests())
         return;
+    if (follows() && !scene_.carried.empty())
+        throw InputError(
+            fmt::format("system/mpmSchemes: rest.follow: found yes beside the surface '{}', which may carry "
+                        "loads; allowed: no, as what these do is known step by step only",
+                        scene_.carried.front()->name));
     restWave_ = std::numeric_limits<double>::infinity();
     for (const auto& material : scene_.materials)
         if (!material.law->rigid() && material.waveSpeed() < restWave_)
@@ -39,6 +64,7 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
             awake_.push_back(Index(t));
     report_.resting = sleeping;
     reached_.clear();
+    parts_.clear();
     if (sleeping == 0)
     {
         reached_.resize(grid_.blocks().size());
@@ -52,6 +78,8 @@ void ExplicitStepper<dim, Shape>::choosePlaces()
     for (std::size_t b = 0; b < reached.size(); ++b)
         if (reached[b])
             reached_.push_back(Index(b));
+    if (follows()) // nothing wakes within a step
+        parts_ = partsOf(grid_, awake_);
 }
 
 /// Is a wall or gravity about to disturb a tile by itself?
@@ -102,7 +130,9 @@ void ExplicitStepper<dim, Shape>::lookForRest()
     for (const Index t : awake_)
     {
         const auto& tile = grid_.tiles()[std::size_t(t)];
-        const bool quiet = !isDriven(tile) && disturbance(tile, solved) <= Rest::quietShare;
+        const bool quiet =
+            !isDriven(tile) && disturbance(tile, solved) <=
+                                   (follows() ? Rest::quietShare / double(scene_.sortInterval) : Rest::quietShare);
         for (Index i = tile.first; i < tile.first + tile.count; ++i)
         {
             double& looks = state_.particles.quietLooks[std::size_t(i)];
@@ -138,6 +168,7 @@ void ExplicitStepper<dim, Shape>::layToRest()
 {
     auto& p = state_.particles;
     restingEnergy_ = 0;
+    waking_.clear();
     for (std::size_t t = 0; t < grid_.tiles().size(); ++t)
     {
         const auto& tile = grid_.tiles()[t];
@@ -145,26 +176,33 @@ void ExplicitStepper<dim, Shape>::layToRest()
         if (prescribed(tile.body) || (contact_ && std::any_of(tile.blocks.begin(), tile.blocks.end(), touched)))
             continue;
         const auto* looks = p.quietLooks.data() + tile.first;
-        if (!std::all_of(looks, looks + tile.count, [&](double n) { return n == asleep(); }))
+        if (!std::all_of(looks, looks + tile.count, [&](double n) { return n >= asleep(); }))
             continue;
         grid_.setResting(Index(t), true);
+        if (*looks > asleep())
+            waking_.push_back(Index(t));
         double taken = 0;
         for (Index i = tile.first; i < tile.first + tile.count; ++i)
             for (int a = 0; a < dim; ++a)
             {
                 auto& v = p.v[a][std::size_t(i)];
-                const double momentum = p.mass[std::size_t(i)] * double(v);
+                const double momentum = follows() ? 0 : p.mass[std::size_t(i)] * double(v);
                 taken += 0.5 * momentum * double(v);
                 state_.ledger.restImpulse[a] -= momentum;
-                v = 0;
+                if (!follows())
+                    v = 0;
                 next_[a][std::size_t(i)] = p.x[a][std::size_t(i)];
             }
         state_.ledger.restLoss += taken;
         state_.ledger.kineticEnergy -= taken;
-        restingEnergy_ += strainEnergy(state_, scene_.materials, tile.first, tile.count);
+        restingEnergy_ += energyOf(tile);
     }
     p.padLastChunk();
     choosePlaces();
+    motionKnown_.assign(grid_.blocks().size(), 0);
+    resting_ = follows() ? motionOfSleepers() : MotionOfSleepers{};
+    restingMotion_.resize(
+        grid_.blocks().empty() ? 0 : grid_.blocks().back().start + std::size_t(grid_.blocks().back().box.size()));
 }
 
 /// Wakes the tiles at rest that nodes solved so far disturb. Returns the blocks that then are to be solved too.
@@ -183,22 +221,35 @@ std::vector<Index> ExplicitStepper<dim, Shape>::wake(const std::vector<char>& so
             disturbed[std::size_t(t)] = !(unbalanced <= 1);
             left[std::size_t(t)] = unbalanced <= 1 ? unbalanced : 0;
         }
-    report_.restingStress = restStress_ * (count > 0 ? *std::max_element(left.begin(), left.end()) : 0);
+    if (count > 0)
+        report_.restingStress =
+            std::max(report_.restingStress, restStress_ * *std::max_element(left.begin(), left.end()));
     bool any = false;
     for (Index t = 0; t < count; ++t)
         if (disturbed[std::size_t(t)])
         {
             const auto& tile = tiles[std::size_t(t)];
+            if (follows())
+            {
+                if (std::find(waking_.begin(), waking_.end(), t) == waking_.end())
+                {
+                    waking_.push_back(t);
+                    std::fill_n(state_.particles.quietLooks.begin() + tile.first, tile.count, asleep() + 1);
+                    state_.ledger.wakes += 1;
+                }
+                continue;
+            }
             any = true;
             grid_.setResting(t, false);
             std::fill_n(state_.particles.quietLooks.begin() + tile.first, tile.count, 0.0);
-            restingEnergy_ -= strainEnergy(state_, scene_.materials, tile.first, tile.count);
+            restingEnergy_ -= energyOf(tile);
             state_.ledger.wakes += 1;
         }
     std::vector<Index> more;
     if (!any)
         return more;
     choosePlaces();
+    motionKnown_.assign(grid_.blocks().size(), 0);
     if (report_.resting == 0)
         restingEnergy_ = 0;
     for (const Index b : reached_)
@@ -211,7 +262,9 @@ std::vector<Index> ExplicitStepper<dim, Shape>::wake(const std::vector<char>& so
 template <int dim, class Shape>
 double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const std::vector<char>& solved)
 {
-    const double perSpeed = 1 / (restSpeed_ * restSpeed_);
+    // what follows may move, but by a small part of a cell from look to look
+    const double fastest = follows() ? 0.05 * state_.grid.h / (kick_ * double(scene_.sortInterval)) : restSpeed_;
+    const double perSpeed = 1 / (fastest * fastest);
     const double perAcceleration = std::pow(state_.grid.h / (restSpeed_ * restWave_), 2);
     double largest = 0;
     const Record* window = grid_.template window<Record>(tile); // as the tile was projected last
@@ -220,7 +273,8 @@ double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const s
         if (!solved[std::size_t(overlap.block)])
             continue;
         const auto& block = grid_.blocks()[std::size_t(overlap.block)];
-        const auto box = tile.window.moved(overlap.move), both = box.common(block.box);
+        const auto box = tile.window.moved(overlap.move);
+        const auto both = box.common(inPart_ ? parts_[std::size_t(overlap.block)] : block.box);
         for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
             for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
                 for (Index i = both.lo[0]; i < both.lo[0] + both.n[0]; ++i)
@@ -242,26 +296,6 @@ double ExplicitStepper<dim, Shape>::disturbance(const state::Tile& tile, const s
     return std::sqrt(largest);
 }
 
-/// mass[i - row.begin] = what sleeps of the mass of node i. Returns whether anything does.
-template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::restingMass(const nodal::NodeRow<dim>& row, const state::Block& block, double* mass)
-{
-    bool any = false;
-    for (const auto& overlap : block.tiles)
-    {
-        const auto& tile = grid_.tiles()[std::size_t(overlap.tile)];
-        const auto box = tile.window.moved(overlap.move);
-        const Index begin = std::max(row.begin, box.lo[0]), end = std::min(row.end, box.lo[0] + box.n[0]);
-        if (!tile.resting || begin >= end || !box.contains(begin, row.j, row.k))
-            continue;
-        const Record* own = grid_.template window<Record>(tile) + box.offset(begin, row.j, row.k);
-        for (Index i = begin; i < end; ++i)
-            mass[i - row.begin] += own[i - begin][0];
-        any = true;
-    }
-    return any;
-}
-
 /// Holds the solved nodes that sleeping particles have mass at, and books the momentum this takes: of nodes held, of
 /// what sleeps at the others, and the internal forces at solved nodes, which are those at nodes not solved with the
 /// sign turned.
@@ -269,33 +303,44 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::holdResting(const std::vector<Index>& blocks)
 {
     const double alpha = scene_.picRate > 0 ? -std::expm1(-scene_.picRate * kick_) : 0;
-    forEachRow(blocks, [&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
-        double mass[1 << state::TileLayout::bitsOf(dim)] = {};
-        sumWindows(row, block, sum);
-        restingMass(row, block, mass);
-        for (Index i = row.begin; i < row.end; ++i)
-        {
-            Record& r = row.node[i];
-            const Record projected = transfer::finishNode<dim>(sum[i - row.begin]);
-            const double resting = mass[i - row.begin];
-            const bool held = resting > smallestMass_;
-            for (int a = 0; a < dim; ++a)
+    forEachRow(
+        blocks,
+        [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
+            sumWindows(row, block, sum);
+            const Record* motion = restingMotion(row, block);
+            for (Index i = row.begin; i < row.end; ++i)
             {
-                const double after = r[1 + a], change = kick_ * r[1 + dim + a];
-                row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
-                                            alpha * resting * (after - change) - (held ? (r[0] - resting) * after : 0);
-                if (held)
+                Record& r = row.node[i];
+                const Record projected = transfer::finishNode<dim>(sum[i - row.begin]);
+                const Record sleeping = motion ? motion[i] : Record{};
+                const double resting = sleeping[0];
+                const bool held = resting > smallestMass_;
+                if (held && r[0] - resting > smallestMass_)
+                    row.sums->restWork -= kick_ * sleeping[7];
+                for (int a = 0; a < dim; ++a)
                 {
-                    r[1 + a] = 0;
-                    r[1 + dim + a] = (change - after) / kick_;
+                    const double after = r[1 + a], change = kick_ * r[1 + dim + a], own = sleeping[1 + dim + a];
+                    row.sums->restImpulse[a] += kick_ * projected[1 + dim + a] - resting * change -
+                                                alpha * (resting * (after - change) - sleeping[1 + a]) -
+                                                (held ? (r[0] - resting) * (after - own) : 0);
+                    if (held)
+                    {
+                        r[1 + a] = own;
+                        r[1 + dim + a] = (own + change - after) / kick_;
+                    }
                 }
             }
-        }
-    });
+        },
+        inPart_);
     for (const auto& block : blockSums_)
         for (int a = 0; a < dim; ++a)
             state_.ledger.restImpulse[a] += block.restImpulse[a];
+    double given = 0;
+    for (const auto& block : blockSums_)
+        given += block.restWork;
+    state_.ledger.restLoss += given; // and takes it as it follows
+    state_.ledger.transferLoss -= given;
     state_.ledger.restingSteps += report_.resting;
 }
 
@@ -306,12 +351,10 @@ void ExplicitStepper<dim, Shape>::holdStrainVelocities()
     if (report_.resting == 0)
         return;
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
-        double mass[1 << state::TileLayout::bitsOf(dim)] = {};
-        if (!restingMass(row, block, mass))
-            return;
-        for (Index i = row.begin; i < row.end; ++i)
-            for (int a = 0; a < dim && mass[i - row.begin] > smallestMass_; ++a)
-                row.node[i][row.trial + a] = 0;
+        const Record* motion = restingMotion(row, block);
+        for (Index i = row.begin; motion && i < row.end; ++i)
+            for (int a = 0; a < dim && motion[i][0] > smallestMass_; ++a)
+                row.node[i][row.trial + a] = motion[i][1 + dim + a];
     });
 }
 } // namespace mpm::stepping
