@@ -172,7 +172,7 @@ bool ExplicitStepper<dim, Shape>::followMotion(const std::vector<Index>& which, 
         for (Index i = row.begin; i < row.end; ++i)
         {
             Record& r = row.node[i];
-            r = Record{motion[i][0]};
+            r = Record{motion[i][0], 0.0};
             for (int a = 0; a < dim; ++a)
                 r[1 + a] = motion[i][1 + dim + a];
         }
@@ -283,7 +283,7 @@ void ExplicitStepper<dim, Shape>::sumRestingMotion(nodal::NodeRow<dim> row, cons
     for (Index i = row.begin; i < row.end; ++i)
     {
         const Record& m = motion[i - row.begin];
-        row.node[i] = Record{m[0]};
+        row.node[i] = Record{m[0], 0.0};
         for (int a = 0; a < dim && m[0] > smallestMass_; ++a)
             row.node[i][row.trial + a] = m[1 + a] / m[0];
     }
