@@ -27,7 +27,7 @@ sys.dont_write_bytecode = True
 import couple  # noqa: E402
 import sceneReport  # noqa: E402
 
-CASE = BUILD / "tests" / "coupling" / ("springWallPrecice" if "precice" in sys.argv else "springWall")
+CASE = BUILD / "tests" / "coupling" / ("springWallPreciceCase" if "precice" in sys.argv else "springWallCase")
 SHORT = ("-end", "0.1")
 
 
