@@ -103,13 +103,9 @@ mpm_status mpm_participant_balance(mpm_participant* participant, mpm_balance* ba
     return withParticipant(participant, [&](Participant& own) {
         required(balance, "balance");
         const coupling::Balance now = own.balance();
-        *balance = {now.kineticEnergy,
-                    now.strainEnergy,
-                    now.dissipation,
-                    now.gravityWork,
-                    now.interfaceWork,
-                    now.residual,
-                    {now.momentum[0], now.momentum[1], now.momentum[2]}};
+        *balance = {
+            now.kineticEnergy, now.strainEnergy, now.dissipation, now.gravityWork,
+            now.interfaceWork, now.motionWork,   now.residual,    {now.momentum[0], now.momentum[1], now.momentum[2]}};
     });
 }
 

@@ -177,6 +177,7 @@ typedef struct mpm_balance /* sums over the whole soil now [J, N s] */
 {
     double kinetic_energy, strain_energy, dissipation, gravity_work;
     double interface_work; /* of all surfaces on the soil since initialize */
+    double motion_work;    /* the same by the soil's own books, with walls and bodies whose motion is prescribed */
     double residual;       /* what the budget does not explain */
     double momentum[3];
 } mpm_balance;

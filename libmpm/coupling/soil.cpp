@@ -42,7 +42,8 @@ Soil::Soil(const std::filesystem::path& caseFolder, const Overrides& overrides)
     runTime_.emplace(control);
     if (const auto record = StrainRecorder::wanted(control); !record.empty())
         throw InputError(control.where("recordStrain"),
-                         "recordStrain: found it in a case that is coupled; allowed with mpmSolve alone");
+                         "recordStrain: found it in a case that is coupled; allowed with mpmSolve alone: leave it "
+                         "out, or have a setting take it away");
     monitor_.emplace(control, runTime_->adjustable(), true);
     const auto fields = readFields(control);
     control.rejectUnread();

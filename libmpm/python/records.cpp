@@ -2,6 +2,7 @@
 #include "python/arrays.hpp"
 #include "python/session.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 namespace mpm::python
@@ -58,7 +59,13 @@ void defineRecords(py::module_& module)
     vectorOf(resultants, "torque", &Resultants::torque, "the same about the reference point, (3,) [N m]");
     vectorOf(resultants, "impulse", &Resultants::impulse, "of the last window, (3,) [N s]");
     vectorOf(resultants, "moment_impulse", &Resultants::momentImpulse, "of the last window, (3,) [N m s]");
-    resultants.def_readonly("contact_area", &Resultants::contactArea, "at its end [m^2]");
+    resultants.def_readonly("contact_area", &Resultants::contactArea, "at its end [m^2]")
+        .def("__repr__", [](const Resultants& r) {
+            return fmt::format("<Resultants force ({:.6g}, {:.6g}, {:.6g}) N, torque ({:.6g}, {:.6g}, {:.6g}) N m, "
+                               "contact {:.6g} m^2>",
+                               r.force[0], r.force[1], r.force[2], r.torque[0], r.torque[1], r.torque[2],
+                               r.contactArea);
+        });
 
     py::class_<Balance> balance(module, "Balance", "Sums over the whole soil now [J]; per metre in 2D.");
     balance.def_readonly("kinetic_energy", &Balance::kineticEnergy)
@@ -66,7 +73,15 @@ void defineRecords(py::module_& module)
         .def_readonly("dissipation", &Balance::dissipation)
         .def_readonly("gravity_work", &Balance::gravityWork)
         .def_readonly("interface_work", &Balance::interfaceWork, "of all surfaces on the soil since initialize()")
-        .def_readonly("residual", &Balance::residual, "what the budget does not explain");
+        .def_readonly("motion_work", &Balance::motionWork,
+                      "the same by the soil's own books, with walls and bodies whose motion is prescribed")
+        .def_readonly("residual", &Balance::residual, "what the budget does not explain")
+        .def("__repr__", [](const Balance& b) {
+            return fmt::format("<Balance kinetic {:.6g} J, strain {:.6g} J, dissipation {:.6g} J, gravity {:.6g} J, "
+                               "interface {:.6g} J, residual {:.3g} J>",
+                               b.kineticEnergy, b.strainEnergy, b.dissipation, b.gravityWork, b.interfaceWork,
+                               b.residual);
+        });
     vectorOf(balance, "momentum", &Balance::momentum, "(3,) [N s]");
 
     py::class_<Saved, std::shared_ptr<Saved>>(module, "State",

@@ -73,6 +73,7 @@ class Module(unittest.TestCase):
         balance = soil.balance()
         self.assertEqual(balance.interface_work, soil.interface_work("wall") + soil.interface_work("probe"))
         self.assertLess(abs(balance.residual), 1e-9 * balance.gravity_work)
+        self.assertAlmostEqual(balance.motion_work, balance.interface_work, delta=1e-9 * balance.gravity_work)
         stress = soil.read_field("probe", "Stress")
         self.assertEqual(stress.shape, (3, 6))
         vertical = stress[:, 1]  # 6 m below the top: -59 kPa before the column falls, less when it does
