@@ -1,6 +1,7 @@
 #include "case/readRigidBodies.hpp"
 
 #include "case/readSurface.hpp"
+#include "nodal/insideBody.hpp"
 #include "nodal/rigidBody.hpp"
 #include "nodal/vectors.hpp"
 
@@ -39,32 +40,13 @@ nodal::RigidSurface readGeometry(const Dictionary& d, int dim)
 
 void refuseInsideSoil(const Dictionary& all, const nodal::Body& body, const state::State& state)
 {
-    const auto& p = state.particles;
-    Index count = 0, deepest = 0;
-    double depth = 1e-6 * state.grid.h;
-    for (Index i = 0; i < p.size(); ++i)
-    {
-        Vector3 x{};
-        bool apart = false;
-        for (int a = 0; a < p.dim; ++a)
-        {
-            const auto n = std::size_t(a);
-            x[n] = p.x[n][std::size_t(i)];
-            apart = apart || x[n] < body.body->low()[n] || x[n] > body.body->high()[n];
-        }
-        const double inside = apart ? 0 : -body.body->nearest(x).distance;
-        count += inside > 1e-6 * state.grid.h;
-        if (inside > depth)
-        {
-            depth = inside;
-            deepest = i;
-        }
-    }
-    if (count > 0)
+    const auto found = nodal::particlesInside(*body.body, state.particles, state.grid.h);
+    if (found.count > 0)
         throw InputError(all.where(body.name),
                          fmt::format("{}: found {} particles inside the body at the start, particle {} the deepest, "
                                      "{:g} m ({:.2g} cells); allowed: a body that begins outside the soil",
-                                     body.name, count, p.id[std::size_t(deepest)], depth, depth / state.grid.h));
+                                     body.name, found.count, state.particles.id[std::size_t(found.deepest)],
+                                     found.depth, found.depth / state.grid.h));
 }
 
 nodal::Body readBody(const Dictionary& all, const Dictionary& d, const std::string& name, const state::State& state)

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "coupling/byteStream.hpp"
+#include "nodal/insideBody.hpp"
 #include "nodal/vectors.hpp"
 
 #include <algorithm>
@@ -153,32 +154,14 @@ void Surface::enter(const state::State& state, stepping::Scene& scene)
 void Surface::refuseInsideSoil(const state::State& state) const
 {
     const ContactBody& body = rigid_ ? static_cast<const ContactBody&>(*rigid_) : *deformable_;
-    const auto& p = state.particles;
-    Index count = 0, deepest = 0;
-    double depth = 1e-6 * state.grid.h;
-    for (Index i = 0; i < p.size(); ++i)
-    {
-        Vector3 x{};
-        bool apart = false;
-        for (std::size_t a = 0; a < std::size_t(p.dim); ++a)
-        {
-            x[a] = p.x[a][std::size_t(i)];
-            apart = apart || x[a] < body.low()[a] || x[a] > body.high()[a];
-        }
-        const double inside = apart ? 0 : -body.nearest(x).distance;
-        count += inside > 1e-6 * state.grid.h;
-        if (inside > depth)
-        {
-            depth = inside;
-            deepest = i;
-        }
-    }
-    if (count > 0)
+    const auto found = particlesInside(body, state.particles, state.grid.h);
+    if (found.count > 0)
         throw CouplingError(
             Fault::badSurface,
             fmt::format("{}: found {} particles inside it at the start, particle {} the deepest, {:g} m "
                         "({:.2g} cells); allowed: a surface that begins outside the soil",
-                        name_, count, p.id[std::size_t(deepest)], depth, depth / state.grid.h));
+                        name_, found.count, state.particles.id[std::size_t(found.deepest)], found.depth,
+                        found.depth / state.grid.h));
 }
 
 void Surface::startAt(const state::State& state)
