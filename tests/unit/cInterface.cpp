@@ -1,6 +1,7 @@
 // The participant through mpm.h, as a C program meets it: windows, surfaces, states, handles, threads.
 #include "support/blockParticipant.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <thread>
 
@@ -131,7 +132,7 @@ TEST_CASE("handles that are none")
 
 TEST_CASE("two threads: errors are each one's own, one participant is one thread's at a time")
 {
-    Soil soil, other;
+    Soil other;
     double time = 0;
     CHECK(mpm_participant_time(nullptr, &time) == MPM_BAD_HANDLE);
     mpm_status found = MPM_OK;
@@ -145,14 +146,24 @@ TEST_CASE("two threads: errors are each one's own, one participant is one thread
     CHECK(found == MPM_BAD_WINDOW);
     CHECK_THAT(own, StartsWith("badWindow"));
     CHECK_THAT(mpm_last_error(), StartsWith("badHandle"));
-    std::thread stepping([&] { found = mpm_participant_advance(soil.p, 2, nullptr); });
-    mpm_status met = MPM_OK;
-    for (int tries = 0; met != MPM_BUSY && tries < 1000000; ++tries)
-        met = mpm_participant_time(soil.p, &time);
-    const auto ended = met == MPM_BUSY ? mpm_participant_destroy(soil.p) : MPM_BUSY;
-    stepping.join();
-    CHECK(met == MPM_BUSY);
+    // Who is slow to look may find the other one done: then once more.
+    mpm_status met = MPM_OK, ended = MPM_OK;
+    for (int round = 0; ended != MPM_BUSY && round < 100; ++round)
+    {
+        const Soil soil;
+        std::atomic<bool> done = false;
+        std::thread stepping([&] {
+            found = mpm_participant_advance(soil.p, 0.5, nullptr);
+            done = true;
+        });
+        for (met = MPM_OK; met != MPM_BUSY && !done;)
+            met = mpm_participant_time(soil.p, &time);
+        if (met == MPM_BUSY)
+            ended = mpm_participant_destroy(soil.p);
+        stepping.join();
+        CHECK((found == MPM_OK || found == MPM_BUSY)); // it may have come second itself
+        if (met == MPM_BUSY) // and the participant is there still, unless the call under way had ended before
+            CHECK(mpm_participant_time(soil.p, &time) == (ended == MPM_BUSY ? MPM_OK : MPM_BAD_HANDLE));
+    }
     CHECK(ended == MPM_BUSY);
-    CHECK((found == MPM_OK || found == MPM_DISCARDED));
-    CHECK(mpm_participant_time(soil.p, &time) == MPM_OK);
 }
