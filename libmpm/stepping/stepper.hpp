@@ -125,7 +125,8 @@ struct StepReport
     std::vector<ActorReport> actors; ///< moving walls, then rigid bodies
     Index cappedDomains = 0;         ///< particle domains held at the widest size the shape allows
     Index resting = 0;               ///< particles that slept through it
-    double restingStress = 0;      ///< largest stress out of balance that left a tile asleep so far, |a| rho h of a node [Pa]
+    double restingStress =
+        0; ///< largest stress out of balance that left a tile asleep so far, |a| rho h of a node [Pa]
     double unbalancedForce = 0;    ///< with localDamping: sum of |net force| over nodes, by components [N]
     double appliedForce = 0;       ///< with localDamping: the same of the projected forces (all but gravity)
     double nodalKineticEnergy = 0; ///< sum m_i v_i^2/2 as projected from the particles [J]
