@@ -91,20 +91,7 @@ nodal::Body farBody(const EffectScene& s)
         for (int n = 0; n < 1 << grid.dim; ++n)
             points.push_back({n & 1 ? high[0] : low[0], n & 2 ? high[1] : low[1], n & 4 ? high[2] : low[2]});
         auto surface = grid.dim == 2 ? nodal::RigidSurface::polygon({points[0], points[1], points[3], points[2]}, where)
-                                     : nodal::RigidSurface(3, points,
-                                                           {{0, 2, 1},
-                                                            {1, 2, 3},
-                                                            {4, 5, 6},
-                                                            {5, 7, 6},
-                                                            {0, 1, 4},
-                                                            {1, 5, 4},
-                                                            {2, 6, 3},
-                                                            {3, 6, 7},
-                                                            {0, 4, 2},
-                                                            {2, 4, 6},
-                                                            {1, 3, 5},
-                                                            {3, 7, 5}},
-                                                           where);
+                                     : nodal::RigidSurface(3, points, nodal::RigidSurface::boxTriangles(), where);
         auto motion = std::make_shared<nodal::RigidMotion>();
         motion->centre = surface.centroid();
         const auto shared = std::make_shared<const nodal::RigidSurface>(std::move(surface));

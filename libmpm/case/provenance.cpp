@@ -1,5 +1,7 @@
 #include "case/provenance.hpp"
 
+#include "base/version.hpp"
+
 #include <fmt/format.h>
 
 namespace mpm::cases
@@ -74,5 +76,15 @@ std::string storageNote(const state::State& state, const std::string& running)
     return fmt::format("this state was computed with storage {}, this is {}: results are no longer bitwise those of "
                        "one storage",
                        before, running);
+}
+
+void recordRun(state::State& state, const std::string& dictionaries)
+{
+    state.provenance["version"] = projectVersion();
+    state.provenance["revision"] = gitRevision();
+    state.provenance["compiler"] = compilerText() + ", " + compilerFlags();
+    recordInstructionSet(state, instructionSet());
+    recordStorage(state, storage());
+    state.provenance["dictionaries"] = dictionaries;
 }
 } // namespace mpm::cases

@@ -25,4 +25,8 @@ std::string instructionSetNote(const state::State& state, const std::string& run
 /// The same for the storage, "double" or "float".
 void recordStorage(state::State& state, const std::string& running);
 std::string storageNote(const state::State& state, const std::string& running);
+
+/// All a run that goes on from the state says of itself: version, revision, compiler, both of the above, and the
+/// dictionaries as they were understood.
+void recordRun(state::State& state, const std::string& dictionaries);
 } // namespace mpm::cases

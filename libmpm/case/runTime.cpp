@@ -65,6 +65,11 @@ double RunTime::nextStep(double time, double limit) const
     return remaining / std::max(1.0, std::ceil(remaining / wanted - 1e-9));
 }
 
+double RunTime::boundedStep(const stepping::StabilityLimit& limit, double h) const
+{
+    return std::min(maxCo_ * h / (limit.waveSpeed + limit.speed), 0.9 * limit.deltaT);
+}
+
 bool RunTime::writeNow(double before, double after, Index step) const
 {
     return done(after) || inTurn(before, after, step);

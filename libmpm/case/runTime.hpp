@@ -24,6 +24,7 @@
 /// with changing steps the first not before it, which lands on it if endTime is a write time of adjustableRunTime and
 /// goes past it by less than a step otherwise.
 #include "dictionary/dictionary.hpp"
+#include "stepping/timeStep.hpp"
 
 #include <string>
 
@@ -54,6 +55,8 @@ class RunTime
     bool done(double time) const;
     /// The step to take from `time`; `limit` is the largest allowed (adjustTimeStep), ignored otherwise.
     double nextStep(double time, double limit) const;
+    /// (c_p + |v|) deltaT/h <= maxCo and 0.9 of the stability limit.
+    double boundedStep(const stepping::StabilityLimit& limit, double h) const;
     /// Is the state after this step to be written?
     bool writeNow(double timeBefore, double timeAfter, Index step) const;
     /// The same where somebody else says when the run ends.

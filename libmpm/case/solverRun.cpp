@@ -3,7 +3,6 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/processorClock.hpp"
-#include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"
 #include "case/provenance.hpp"
@@ -138,12 +137,7 @@ void SolverRun::openOutput()
         folder_.removeTime(name);
     if (!history_->lastTime()) // a new series begins with the state it starts from
         writeRow();
-    state_.provenance["version"] = projectVersion();
-    state_.provenance["revision"] = gitRevision();
-    state_.provenance["compiler"] = compilerText() + ", " + compilerFlags();
-    recordInstructionSet(state_, instructionSet());
-    recordStorage(state_, storage());
-    state_.provenance["dictionaries"] = scene_.dictionaries;
+    recordRun(state_, scene_.dictionaries);
     overrides_.remember(state_);
     if (done())
         writeSeries(); // a run killed at its very end may lack it
@@ -159,8 +153,7 @@ stepping::StabilityLimit SolverRun::stabilityLimit() const
 /// maxCo bounds the Courant number with the particles' own speed; the stability limit is kept with a margin.
 double SolverRun::allowedStep(const stepping::StabilityLimit& limit) const
 {
-    const double courant = runTime_->maxCo() * state_.grid.h / (limit.waveSpeed + limit.speed);
-    return state_.stepFactor * std::min(courant, 0.9 * limit.deltaT);
+    return state_.stepFactor * runTime_->boundedStep(limit, state_.grid.h);
 }
 
 double SolverRun::stepSize() const

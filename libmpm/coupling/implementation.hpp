@@ -31,10 +31,11 @@ struct Participant::Implementation
     /// Values as a field wants them.
     void checkSize(const Surface& surface, const Field& field, std::size_t count) const;
 
+    std::vector<std::vector<std::byte>> savedSurfaces() const;
     std::shared_ptr<const HeldState> hold() const;
     void putBack(const HeldState& held);
     /// Surfaces go with the state to disk, and come back from there.
-    std::string surfacesAsText(const HeldState& held) const;
+    std::string surfacesAsText(const std::vector<std::vector<std::byte>>& saved) const;
     void recallSurfaces();
 
     void substeps(double end, Index& count);

@@ -357,7 +357,7 @@ void Participant::acceptWindow()
     const double from = own.accepted ? own.accepted->state.time : time();
     const bool fresh = own.soil.fresh() && !own.windows.wasOpen();
     if (own.soil.due())
-        own.soil.state().provenance["coupling"] = own.surfacesAsText(*own.hold());
+        own.soil.state().provenance["coupling"] = own.surfacesAsText(own.savedSurfaces());
     const bool due = own.soil.due();
     own.soil.accept();
     if (due)
@@ -380,7 +380,7 @@ void Participant::finalize()
     {
         const auto last = own_->accepted ? own_->accepted : own_->hold();
         state::State state = last->state;
-        state.provenance["coupling"] = own_->surfacesAsText(*last);
+        state.provenance["coupling"] = own_->surfacesAsText(last->surfaces);
         own_->soil.store(state);
     }
     own_->soil.end();

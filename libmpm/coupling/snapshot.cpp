@@ -72,9 +72,14 @@ std::vector<std::byte> fromHexadecimal(const std::string& text)
 
 std::shared_ptr<const HeldState> Participant::Implementation::hold() const
 {
-    auto out = std::make_shared<HeldState>(HeldState{soil.state(), {}, lifecycle});
+    return std::make_shared<HeldState>(HeldState{soil.state(), savedSurfaces(), lifecycle});
+}
+
+std::vector<std::vector<std::byte>> Participant::Implementation::savedSurfaces() const
+{
+    std::vector<std::vector<std::byte>> out;
     for (const auto& surface : surfaces)
-        out->surfaces.push_back(surface.save());
+        out.push_back(surface.save());
     return out;
 }
 
@@ -89,12 +94,12 @@ void Participant::Implementation::putBack(const HeldState& held)
 }
 
 /// One line a surface: its name and its bytes.
-std::string Participant::Implementation::surfacesAsText(const HeldState& held) const
+std::string Participant::Implementation::surfacesAsText(const std::vector<std::vector<std::byte>>& saved) const
 {
     std::string out;
     std::size_t n = 0;
     for (const auto& surface : surfaces)
-        out += surface.name() + " " + hexadecimal(held.surfaces[n++]) + "\n";
+        out += surface.name() + " " + hexadecimal(saved[n++]) + "\n";
     return out;
 }
 

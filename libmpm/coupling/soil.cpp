@@ -1,7 +1,6 @@
 #include "coupling/soil.hpp"
 
 #include "base/error.hpp"
-#include "base/version.hpp"
 #include "case/expressionForce.hpp"
 #include "case/makeStepper.hpp"
 #include "case/provenance.hpp"
@@ -81,12 +80,7 @@ void Soil::begin()
     monitor_->begin(state_, scene_.scene);
     written_.emplace(folder_, runTime_->purgeWrite(), runTime_->timePrecision());
     written_->goOnFrom(state_, startName_);
-    state_.provenance["version"] = projectVersion();
-    state_.provenance["revision"] = gitRevision();
-    state_.provenance["compiler"] = compilerText() + ", " + compilerFlags();
-    recordInstructionSet(state_, instructionSet());
-    recordStorage(state_, storage());
-    state_.provenance["dictionaries"] = scene_.dictionaries;
+    recordRun(state_, scene_.dictionaries);
     overrides_.remember(state_);
     startStep_ = state_.step;
     if (startStep_ == 0) // a new series begins with the state it starts from
@@ -97,8 +91,7 @@ double Soil::largestStep() const
 {
     if (!runTime_->adjustable())
         return runTime_->deltaT();
-    const double courant = runTime_->maxCo() * state_.grid.h / (limit_.waveSpeed + limit_.speed);
-    const double allowed = std::min(courant, 0.9 * limit_.deltaT);
+    const double allowed = runTime_->boundedStep(limit_, state_.grid.h);
     return state_.step == 0 ? std::min(allowed, runTime_->deltaT()) : allowed;
 }
 

@@ -64,6 +64,13 @@ RigidSurface RigidSurface::polygon(const std::vector<Vector3>& corners, const Lo
     return RigidSurface(2, corners, std::move(elements), where);
 }
 
+const std::vector<RigidSurface::Element>& RigidSurface::boxTriangles()
+{
+    static const std::vector<Element> triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return triangles;
+}
+
 /// Points of one place become one: those in the same or a neighbouring box of a fine lattice.
 void RigidSurface::weld()
 {

@@ -34,6 +34,8 @@ class RigidSurface
     RigidSurface(int dim, std::vector<Vector3> points, std::vector<Element> elements, const Location& where);
     /// A polygon; its last point is joined to its first.
     static RigidSurface polygon(const std::vector<Vector3>& corners, const Location& where);
+    /// The 12 triangles of a box, outward: corner n lies high along axis a where bit a of n is set, low elsewhere.
+    static const std::vector<Element>& boxTriangles();
 
     Nearest nearest(const Vector3& x) const;
     /// The same elements with their points elsewhere. False if they hold no volume any more, or are not finite.

@@ -1,6 +1,7 @@
 #pragma once
 /// Surfaces for tests: circles, spheres, plates, a cube.
 #include "coupling/surfaceMesh.hpp"
+#include "nodal/rigidSurface.hpp"
 #include "nodal/vectors.hpp"
 
 #include <algorithm>
@@ -77,20 +78,7 @@ inline SurfaceMesh plate(int nx, int ny)
 /// The unit cube of 12 triangles.
 inline SurfaceMesh cube()
 {
-    SurfaceMesh out{3,
-                    {},
-                    {{0, 2, 1},
-                     {1, 2, 3},
-                     {4, 5, 6},
-                     {5, 7, 6},
-                     {0, 1, 4},
-                     {1, 5, 4},
-                     {2, 6, 3},
-                     {3, 6, 7},
-                     {0, 4, 2},
-                     {2, 4, 6},
-                     {1, 3, 5},
-                     {3, 7, 5}}};
+    SurfaceMesh out{3, {}, nodal::RigidSurface::boxTriangles()};
     for (int n = 0; n < 8; ++n)
         out.vertices.push_back({n & 1 ? 1.0 : 0.0, n & 2 ? 1.0 : 0.0, n & 4 ? 1.0 : 0.0});
     return out;

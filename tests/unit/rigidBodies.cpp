@@ -220,20 +220,7 @@ TEST_CASE("a block of triangles pushes in 3D")
     for (int n = 0; n < 8; ++n)
         p.push_back({n & 1 ? 0.8 : 0.2, n & 2 ? 1.7 : 0.8, n & 4 ? 1.7 : 0.8});
     const auto surface =
-        std::make_shared<const nodal::RigidSurface>(3, p,
-                                                    std::vector<nodal::RigidSurface::Element>{{0, 2, 1},
-                                                                                              {1, 2, 3},
-                                                                                              {4, 5, 6},
-                                                                                              {5, 7, 6},
-                                                                                              {0, 1, 4},
-                                                                                              {1, 5, 4},
-                                                                                              {2, 6, 3},
-                                                                                              {3, 6, 7},
-                                                                                              {0, 4, 2},
-                                                                                              {2, 4, 6},
-                                                                                              {1, 3, 5},
-                                                                                              {3, 7, 5}},
-                                                    Location{"test", 1});
+        std::make_shared<const nodal::RigidSurface>(3, p, nodal::RigidSurface::boxTriangles(), Location{"test", 1});
     auto moves = std::make_shared<nodal::RigidMotion>();
     moves->centre = surface->centroid();
     moves->translation = dictionary::Motion::read(dictionary::Dictionary::fromText("velocity (0.5 0 0);"), 3);

@@ -22,19 +22,7 @@ std::pair<std::vector<Vector3>, std::vector<RigidSurface::Element>> box(const Ve
     std::vector<Vector3> p;
     for (int n = 0; n < 8; ++n)
         p.push_back({n & 1 ? high[0] : low[0], n & 2 ? high[1] : low[1], n & 4 ? high[2] : low[2]});
-    return {p,
-            {{0, 2, 1},
-             {1, 2, 3},
-             {4, 5, 6},
-             {5, 7, 6},
-             {0, 1, 4},
-             {1, 5, 4},
-             {2, 6, 3},
-             {3, 6, 7},
-             {0, 4, 2},
-             {2, 4, 6},
-             {1, 3, 5},
-             {3, 7, 5}}};
+    return {p, RigidSurface::boxTriangles()};
 }
 
 double boxDistance(const Vector3& low, const Vector3& high, const Vector3& x)
