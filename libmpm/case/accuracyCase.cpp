@@ -1,5 +1,6 @@
 #include "case/accuracyCase.hpp"
 
+#include "base/hash.hpp"
 #include "base/version.hpp"
 #include "case/accuracyText.hpp"
 #include "case/gridFromDict.hpp"
@@ -84,10 +85,7 @@ Setting ownSetting(const CaseDirectory& folder)
 
 std::string textHash(const std::string& text)
 {
-    std::uint64_t hash = 14695981039346656037ull;
-    for (const unsigned char c : text)
-        hash = (hash ^ c) * 1099511628211ull;
-    return fmt::format("{:016x}", hash);
+    return fmt::format("{:016x}", hashOf(text));
 }
 
 AccuracyCase::AccuracyCase(const CaseDirectory& folder, bool storedTimes)

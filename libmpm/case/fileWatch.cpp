@@ -1,5 +1,7 @@
 #include "case/fileWatch.hpp"
 
+#include "base/hash.hpp"
+
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -17,15 +19,13 @@ bool isLeftByEditors(const std::string& name)
            name.ends_with(".partial");
 }
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo; IETF draft-eastlake-fnv).
-std::uint64_t hashOf(const fs::path& file)
+std::uint64_t hashOfFile(const fs::path& file)
 {
-    std::uint64_t hash = 0xcbf29ce484222325u;
+    std::uint64_t hash = hashOf("");
     std::ifstream in(file, std::ios::binary);
     std::array<char, 65536> bytes;
     while (in.read(bytes.data(), bytes.size()), in.gcount() > 0)
-        for (std::streamsize i = 0; i < in.gcount(); ++i)
-            hash = (hash ^ static_cast<unsigned char>(bytes[std::size_t(i)])) * 0x100000001b3u;
+        hash = hashOf({bytes.data(), std::size_t(in.gcount())}, hash);
     return hash;
 }
 } // namespace
@@ -53,7 +53,7 @@ FileWatch::Prints FileWatch::look(const Prints& known) const
             const auto before = known.find(at->path());
             const bool same =
                 before != known.end() && before->second.time == print.time && before->second.size == print.size;
-            print.hash = same ? before->second.hash : hashOf(at->path());
+            print.hash = same ? before->second.hash : hashOfFile(at->path());
             found.emplace(at->path(), print);
         }
     }

@@ -1,5 +1,6 @@
 // Snapshots of a participant: in memory, as bytes, and as the text that goes with a state to disk.
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "coupling/byteStream.hpp"
 #include "coupling/implementation.hpp"
 #include "output/stateBytes.hpp"
@@ -41,13 +42,9 @@ std::vector<std::byte> takeBlock(std::span<const std::byte>& bytes)
     return {block.begin(), block.end()};
 }
 
-/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo; RFC 9923): a changed byte changes it.
 std::uint64_t checksum(std::span<const std::byte> bytes)
 {
-    std::uint64_t sum = 0xcbf29ce484222325u;
-    for (const auto b : bytes)
-        sum = (sum ^ std::uint64_t(b)) * 0x100000001b3u;
-    return sum;
+    return hashOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::string hexadecimal(std::span<const std::byte> bytes)

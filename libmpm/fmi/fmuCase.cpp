@@ -1,6 +1,7 @@
 #include "fmi/fmuCase.hpp"
 
 #include "base/error.hpp"
+#include "base/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -51,13 +52,6 @@ Leftovers& leftovers()
     return folders;
 }
 } // namespace
-
-std::uint64_t hashOf(std::string_view bytes, std::uint64_t from)
-{
-    for (const char c : bytes)
-        from = (from ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-    return from;
-}
 
 std::string tokenOf(const fs::path& caseFolder)
 {

@@ -10,9 +10,6 @@ namespace mpm::fmi
 /// Where the case lies below the resources of an FMU.
 inline constexpr const char* caseFolderName = "case";
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll & K.-P. Vo, draft-eastlake-fnv): tells files apart, guards nothing.
-std::uint64_t hashOf(std::string_view bytes, std::uint64_t from = 14695981039346656037ull);
-
 /// instantiationToken: "{...}" of the names and contents of all files of a case, so that a case that was changed in an
 /// unpacked FMU is found out.
 std::string tokenOf(const std::filesystem::path& caseFolder);

@@ -1,5 +1,6 @@
 #include "fmi/fmuState.hpp"
 
+#include "base/hash.hpp"
 #include "fmi/fmuCase.hpp"
 
 #include <cstring>
