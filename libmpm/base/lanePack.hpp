@@ -55,6 +55,7 @@ struct alignas(sizeof(double) * n) LanePack
     static constexpr int width = sizeof(Part) / sizeof(double);
     static constexpr int parts = n / width;
     typedef Part Aliasing __attribute__((may_alias));
+    typedef Part Anywhere __attribute__((may_alias, aligned(8)));
     Part part[parts];
 
     LanePack() = default;
@@ -80,6 +81,19 @@ struct alignas(sizeof(double) * n) LanePack
     {
         for (int p = 0; p < parts; ++p)
             reinterpret_cast<Aliasing*>(to)[p] = part[p];
+    }
+    /// Lanes in memory at any address.
+    MPM_INLINE static LanePack loadAnywhere(const double* from)
+    {
+        LanePack r;
+        for (int p = 0; p < parts; ++p)
+            r.part[p] = reinterpret_cast<const Anywhere*>(from)[p];
+        return r;
+    }
+    MPM_INLINE void storeAnywhere(double* to) const
+    {
+        for (int p = 0; p < parts; ++p)
+            reinterpret_cast<Anywhere*>(to)[p] = part[p];
     }
     /// The same number in all lanes.
     MPM_INLINE static LanePack splat(double x)

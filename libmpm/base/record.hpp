@@ -51,11 +51,13 @@ MPM_INLINE Lanes4 shuffle(const Lanes4& a, const Lanes4& b)
     return __builtin_shufflevector(a, b, from...);
 }
 
-/// The same number in all lanes.
+/// The same number in all lanes; kernels may be written for one lane, too.
 template <class R>
 MPM_INLINE R splat(double x)
 {
-    if constexpr (std::is_class_v<R>)
+    if constexpr (std::is_same_v<R, double>)
+        return x;
+    else if constexpr (std::is_class_v<R>)
         return R::splat(x);
     else if constexpr (sizeof(R) == sizeof(Lanes8))
         return R{x, x, x, x, x, x, x, x};
@@ -113,6 +115,25 @@ MPM_INLINE void storeAs(double* p, const R& r)
         *reinterpret_cast<Aliasing*>(p) = r;
     }
 }
+/// The same at any address.
+MPM_INLINE Record loadAnywhere(const double* p)
+{
+#if defined(__AVX512F__)
+    typedef Record Anywhere __attribute__((may_alias, aligned(8)));
+    return *reinterpret_cast<const Anywhere*>(p);
+#else
+    return Record::loadAnywhere(p);
+#endif
+}
+MPM_INLINE void storeAnywhere(double* p, const Record& r)
+{
+#if defined(__AVX512F__)
+    typedef Record Anywhere __attribute__((may_alias, aligned(8)));
+    *reinterpret_cast<Anywhere*>(p) = r;
+#else
+    r.storeAnywhere(p);
+#endif
+}
 MPM_INLINE Record load(const double* p)
 {
     return loadAs<Record>(p);
@@ -129,6 +150,10 @@ MPM_INLINE void store(double* p, const HalfRecord& r)
 /// Lane by lane: a where the mask is set, b elsewhere.
 template <class M, class R>
 requires(!std::is_class_v<R>) MPM_INLINE R select(const M& mask, const R& a, const R& b)
+{
+    return mask ? a : b;
+}
+MPM_INLINE double select(bool mask, double a, double b)
 {
     return mask ? a : b;
 }

@@ -5,7 +5,7 @@
 ///     sigma <- dR sigma dR^T  dR = (I - dt W/2)^-1 (I + dt W/2), W = skew L   (Hughes & Winget 1980)
 ///     dEps = dt D,            D = sym L, then turned by half of dR
 ///     U of F = R U            for the domains of cpGIMP
-/// All as loops over 64 lanes without branches. Verified in tests/unit/kinematics.cpp.
+/// All as loops over 64 lanes, on 64 bytes, without branches; motion.hpp has the same for one register. Verified in tests/unit/kinematics.cpp.
 #include "base/types.hpp"
 
 namespace mpm::constitutive
@@ -33,6 +33,10 @@ void toMidStep(TakenOver where, double dt, TensorLanes<3>& L);
 /// F <- exp(dt L) F. Relative error of exp below 1e-13 for |dt L| <= 1/2.
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F);
 void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F);
+
+/// Is dt |L| <= 1e-3 in every component, where short series are exact to round-off?
+bool isSmallMotion(const TensorLanes<2>& L, double dt);
+bool isSmallMotion(const TensorLanes<3>& L, double dt);
 
 /// sigma <- dR sigma dR^T. Of a strain increment with dt/2: from the middle of the step, where it is taken, to the end,
 /// where the turned stress is; without that, shear that turns is of first order in the step.

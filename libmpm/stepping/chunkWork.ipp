@@ -55,8 +55,14 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         grid_.template clearWindow<Record>(tile);
     lap(ws, &PassTimes::toGrid);
     listColumns(ws.ahead, pass);
-    for (Index first = tile.first; first < tile.first + tile.count; first += lanes)
-        passOverChunk(ws, tile, first, int(std::min<Index>(lanes, tile.first + tile.count - first)), dt, pass);
+    ws.laneSums = {};
+    for (Index first = tile.first, end = tile.first + tile.count; first < end;)
+    {
+        const int count = int(std::min(lanes - first % 8, end - first));
+        passOverChunk(ws, tile, first, count, dt, pass);
+        first += count;
+    }
+    ws.laneSums.addTo(ws.sums);
 }
 
 template <int dim, class Shape>
@@ -303,7 +309,6 @@ template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, int count, double dt, const Pass& pass)
 {
     auto& p = state_.particles;
-    alignas(64) double vv[lanes];
     if (pass.blends)
         blendVelocity(ws, dt, pass);
     else
@@ -318,16 +323,20 @@ void ExplicitStepper<dim, Shape>::advanceVelocity(Workspace& ws, Index first, in
         transfer::storeLanes(p.v[a].data() + first, count, ws.v[a]);
         transfer::storeLanes(next_[a].data() + first, count, ws.xNew[a]);
     }
-    for (int l = 0; l < lanes; ++l)
+    auto& sums = ws.laneSums;
+    for (int g = 0; g < lanes; g += 8)
     {
-        vv[l] = ws.v[0][l] * ws.v[0][l];
-        for (int a = 1; a < dim; ++a)
-            vv[l] += ws.v[a][l] * ws.v[a][l];
+        const Record mass = load(ws.mass + g);
+        Record square{};
+        for (int a = 0; a < dim; ++a)
+        {
+            const Record v = load(ws.v[a] + g);
+            square += v * v;
+            sums.momentum[a] += mass * v;
+        }
+        sums.kinetic += 0.5 * mass * square;
+        sums.fastest = largerOf(square, sums.fastest);
     }
-    ws.sums.kinetic += 0.5 * transfer::sumOfProducts(ws.mass, vv);
-    ws.sums.fastest = std::max(ws.sums.fastest, transfer::largest(vv));
-    for (int a = 0; a < dim; ++a)
-        ws.sums.momentum[std::size_t(a)] += transfer::sumOfProducts(ws.mass, ws.v[a]);
     if (scene_.bodyForce)
     {
         alignas(64) double b[3][lanes];

@@ -17,7 +17,7 @@
 #include "stepping/sceneOf.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
-#include "stepping/tileSums.hpp"
+#include "stepping/strainSweep.hpp"
 #include "transfer/affine.hpp"
 #include "transfer/chunkColumns.hpp"
 #include "transfer/cornerWeights.hpp"
@@ -112,7 +112,7 @@ class ExplicitStepper : public Stepper
     bool relaxes() const;
 
     /// One thread's chunk of particles and node windows.
-    struct Workspace
+    struct Workspace : StrainLanes<dim>
     {
         AlignedVector<typename transfer::ValueNode<dim>::Type> values, filteredValues;
         AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
@@ -128,11 +128,7 @@ class ExplicitStepper : public Stepper
         alignas(64) double viscous[lanes], viscosity[lanes]; ///< normal stress of hourglass viscosity; eta
         alignas(64) double bulkViscous[lanes];               ///< normal stress of bulk viscosity
         alignas(64) double spread[lanes];                    ///< what an average adds to each normal rate of L
-        alignas(64) double mass[lanes], volume[lanes], volumeBefore[lanes], volumeMiddle[lanes];
-        alignas(64) double halfOverBulk[lanes], quarterOverShear[lanes];
-        alignas(64) constitutive::TensorLanes<dim> L, F;
-        alignas(64) double J[lanes];
-        constitutive::Chunk<dim> law;
+        alignas(64) double mass[lanes], volume0[lanes];
         alignas(64) double storedBefore[lanes], stored[lanes]; ///< W(F) of hyperelastic lanes
         transfer::Values<dim> value;
         Weights<Shape> wide;
@@ -141,7 +137,7 @@ class ExplicitStepper : public Stepper
         transfer::ParticleRecords<dim, transfer::Forces> forces;
         transfer::ParticleRecords<dim, transfer::Stresses> stresses;
         transfer::Prefetch ahead;
-        TileSums sums;
+        TileSums sums; ///< of the tile, with those of all lanes once it is done
         PassTimes times;
         double lapStart = 0;
         bool timed = false;
@@ -223,13 +219,13 @@ class ExplicitStepper : public Stepper
     void renewBulkViscosity(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes]);
     void takeAveragePressure(Workspace& ws, const state::Tile& tile, const Vectors& x);
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
-    [[gnu::noinline]] void takeAveragedGradient(Workspace& ws, const state::Tile& tile, Index first, int count);
-    [[gnu::noinline]] void treatBefore(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
+    void takeAveragedGradient(Workspace& ws, const state::Tile& tile, Index first, int count);
+    void treatBefore(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
                                        const constitutive::StressLanes<dim>& strainOfForces, double (&trace)[lanes],
                                        double (&workOfForces)[lanes]);
-    [[gnu::noinline]] void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
+    void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
                                       double (&workOfForcesAfter)[lanes]);
-    [[gnu::noinline]] void callTreatedLaws(Workspace& ws, Index first, int count, double dt);
+    [[gnu::noinline]] void callTreatedLaws(Workspace& ws, Index first, int count, double dt, bool oneMaterial);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp
     void passOverTile(Workspace& ws, const state::Tile& tile, double dt, const Pass& pass);
@@ -274,12 +270,18 @@ class ExplicitStepper : public Stepper
     bool longEdges(Workspace& ws, Index first, int count) const;
     void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);
-    [[gnu::noinline]] void findStiffest(Workspace& ws, Index first, int count) const;
-    void loadModuli(Workspace& ws, Index first, int count) const;
+    StrainColumns<dim> openColumns(Workspace& ws, Index first, int count);
+    void putBack(Workspace& ws, Index first, int count);
+    [[gnu::noinline]] void findBadParticle(Workspace& ws, Index first, int count) const;
+    [[gnu::noinline]] void prepareTreated(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
+                                          const StrainColumns<dim>& columns, double (&trace)[lanes]);
+    [[gnu::noinline]] void bookKept(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes]);
+    void findStiffest(Workspace& ws, Index first, int count) const;
+    bool loadModuli(Workspace& ws, Index first, int count) const;
     template <class Body>
     void forHyperelastic(Index first, int count, Body&& body) const;
     void storedEnergy(const Workspace& ws, Index first, int count, double (&stored)[lanes]) const;
-    void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const;
+    void callLaws(Index first, int count, constitutive::Chunk<dim>& chunk, bool oneMaterial) const;
     [[gnu::always_inline]] inline void loadDomains(Workspace& ws, Index first, int count) const;
     void updateDomains(Workspace& ws, Index first, int count);
     void checkInside(Workspace& ws, const Vectors& x) const;

@@ -1,6 +1,7 @@
 // What ExplicitStepper does to one chunk between its velocity gradient and its stress: deformation, the law, and the
-// sums of the energy budget (energyBudget.hpp).
+// sums of the energy budget (energyBudget.hpp). What all scenes do is in strainSweep.hpp.
 #pragma once
+#include "constitutive/motion.hpp"
 #include "stepping/explicitStepper.hpp"
 
 #include <algorithm>
@@ -20,21 +21,17 @@ void workOfStrain(const constitutive::StressLanes<dim>& stress, const constituti
             density[l] += (k < 3 ? 1 : 2) * stress[k][l] * dStrain[k][l];
 }
 
-/// Elastic energy density 1/2 sigma : C^-1 : sigma = p^2/(2 K) + s : s/(4 G) in every lane, from 1/(2 K) and 1/(4 G).
+/// Elastic energy density in every lane.
 template <int dim>
 void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&halfOverBulk)[lanes],
                    const double (&quarterOverShear)[lanes], double (&energy)[lanes])
 {
-    const auto& sigma = chunk.stress;
     for (int l = 0; l < lanes; ++l)
     {
-        const double p = (sigma[0][l] + sigma[1][l] + sigma[2][l]) * (1.0 / 3);
-        double ss = 0;
-        for (int k = 0; k < 3; ++k)
-            ss += (sigma[k][l] - p) * (sigma[k][l] - p);
-        for (int k = 3; k < stressSize<dim>; ++k)
-            ss += 2 * sigma[k][l] * sigma[k][l];
-        energy[l] = p * p * halfOverBulk[l] + ss * quarterOverShear[l];
+        double sigma[stressSize<dim>];
+        for (int k = 0; k < stressSize<dim>; ++k)
+            sigma[k] = chunk.stress[k][l];
+        energy[l] = constitutive::elasticEnergy(sigma, halfOverBulk[l], quarterOverShear[l]);
     }
 }
 
@@ -65,125 +62,142 @@ void ExplicitStepper<dim, Shape>::storedEnergy(const Workspace& ws, Index first,
     });
 }
 
+/// The chunk's columns for the sweeps (lanesInPlace).
+template <int dim, class Shape>
+StrainColumns<dim> ExplicitStepper<dim, Shape>::openColumns(Workspace& ws, Index first, int count)
+{
+    auto& p = state_.particles;
+    StrainColumns<dim> columns;
+    for (int k = 0; k < dim * dim; ++k)
+        columns.F[k] = transfer::lanesInPlace(p.F[k].data() + first, count, ws.F[k]);
+    for (int k = 0; k < stressSize<dim>; ++k)
+        columns.stress[k] = transfer::lanesInPlace(p.stress[k].data() + first, count, ws.law.stress[k]);
+    columns.volume = p.volume.data() + first;
+    columns.volume0 = p.volume0.data() + first;
+    if (count < lanes) // zero beyond
+    {
+        transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volume);
+        transfer::loadLanesOrZero(p.volume0.data() + first, count, ws.volume0);
+        columns.volume = ws.volume;
+        columns.volume0 = ws.volume0;
+    }
+    return columns;
+}
+
 /// F, V and stress from the velocity gradient.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::updateStress(Workspace& ws, const state::Tile& tile, Index first, int count,
                                                double dt)
 {
-    auto& p = state_.particles;
-    auto& sums = ws.sums;
     auto& chunk = ws.law;
     chunk.count = count;
-    for (int k = 0; k < dim * dim; ++k)
-        transfer::loadLanes(p.F[k].data() + first, count, ws.F[k]);
-    for (int k = 0; k < stressSize<dim>; ++k)
-        transfer::loadLanes(p.stress[k].data() + first, count, chunk.stress[k]);
-    transfer::loadLanesOrZero(p.volume.data() + first, count, ws.volumeBefore);
-    loadModuli(ws, first, count);
-    // What the grid's forces do work on is L as it is; what the law sees is L over the mid-step configuration.
-    alignas(64) double workOfForces[lanes], workOfForcesAfter[lanes];
-    constitutive::StressLanes<dim> strainOfForces;
-    if (treated())
-        takeAveragedGradient(ws, tile, first, count);
-    constitutive::strainIncrement(ws.L, dt, strainOfForces);
-    workOfStrain<dim>(chunk.stress, strainOfForces, workOfForces);
-    sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, workOfForces);
+    const StrainColumns<dim> columns = openColumns(ws, first, count);
+    const StrainStep step{scene_.stressUpdate == StressUpdate::USF ? constitutive::TakenOver::end
+                                                                   : constitutive::TakenOver::start,
+                          dt, treated(), treated() || hyperelastic(), plastic()};
+    const bool oneMaterial = loadModuli(ws, first, count);
     alignas(64) double trace[lanes]; // of the strain forces work on, where a viscosity asks
     if (treated())
-        treatBefore(ws, tile, first, count, dt, strainOfForces, trace, workOfForces);
-    constitutive::toMidStep(scene_.stressUpdate == StressUpdate::USF ? constitutive::TakenOver::end
-                                                                     : constitutive::TakenOver::start,
-                            dt, ws.L);
-    constitutive::strainIncrement(ws.L, dt, chunk.dStrain);
-    alignas(64) double energyBefore[lanes], energy[lanes], workTurned[lanes], workAfter[lanes];
-    elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energyBefore);
-    ws.ahead.some(4);
+        prepareTreated(ws, tile, first, count, dt, columns, trace);
+    const auto copyOfF = [&] {
+        for (int k = 0; k < dim * dim; ++k)
+            if (columns.F[k] != ws.F[k])
+                std::copy_n(columns.F[k], lanes, ws.F[k]);
+    };
     if (hyperelastic())
+    {
+        copyOfF();
         storedEnergy(ws, first, count, ws.storedBefore);
-    constitutive::advanceDeformation(ws.L, dt, ws.F);
-    ws.ahead.some(4);
-    constitutive::determinant(ws.F, ws.J);
-    constitutive::rotateStress(ws.L, dt, chunk.stress);
-    constitutive::rotateStress(ws.L, 0.5 * dt, chunk.dStrain); // from the middle of the step to its end
-    ws.ahead.some(5);
-    workOfStrain<dim>(chunk.stress, chunk.dStrain, workTurned);
+    }
+    strainSweep<dim>(ws, columns, step, ws.ahead);
+    if (hyperelastic() || Shape::followsStretch || hasCorners || splitsNext())
+        copyOfF();
     chunk.F = &ws.F;
     chunk.L = &ws.L;
     chunk.dt = dt;
-    transfer::loadLanesOrZero(p.volume0.data() + first, count, ws.volume);
-    for (int l = 0; l < lanes; ++l)
-    {
-        ws.volume[l] *= ws.J[l];
-        ws.volumeMiddle[l] = 0.5 * (ws.volumeBefore[l] + ws.volume[l]);
-    }
     if (treated() || hasHistory())
-        callTreatedLaws(ws, first, count, dt);
+        callTreatedLaws(ws, first, count, dt, oneMaterial);
     else
-        callLaws(first, count, chunk);
+        callLaws(first, count, chunk, oneMaterial);
     ws.ahead.some(5);
-
-    constexpr double none = std::numeric_limits<double>::min(), immense = 1e30;
-    if (!transfer::allWithin(ws.J, none, immense) && sums.badParticle < 0)
-        for (int l = 0; l < count; ++l)
-            if (!(ws.J[l] >= none && ws.J[l] <= immense))
-            {
-                sums.badParticle = first + l;
-                break;
-            }
-    sums.smallestJacobian = std::min(sums.smallestJacobian, transfer::smallest(ws.J));
+    putBack(ws, first, count);
+    if (!ws.inRange)
+        findBadParticle(ws, first, count);
     if (splitsNext())
-        sums.longEdges = sums.longEdges || longEdges(ws, first, count);
-    transfer::storeLanes(p.volume.data() + first, count, ws.volume);
+        ws.sums.longEdges = ws.sums.longEdges || longEdges(ws, first, count);
+    bookSweep<dim>(ws, columns, step);
+    findStiffest(ws, first, count);
+    if (step.keeps)
+        bookKept(ws, first, count, dt, trace);
+    ws.sums.apexReturns += plastic() ? chunk.apexReturns : 0;
+    if constexpr (Shape::followsStretch || hasCorners)
+        updateDomains(ws, first, count);
+}
+
+/// Copies of columns go back, the stress as the law has left it: floats are rounded before their work is booked.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::putBack(Workspace& ws, Index first, int count)
+{
+    constexpr bool inPlace = std::is_same_v<state::Stored, double>;
+    if (inPlace && count == lanes)
+        return;
+    auto& p = state_.particles;
     for (int k = 0; k < dim * dim; ++k)
         transfer::storeLanes(p.F[k].data() + first, count, ws.F[k]);
     for (int k = 0; k < stressSize<dim>; ++k)
-        transfer::storeLanes(p.stress[k].data() + first, count, chunk.stress[k]);
+        transfer::storeLanes(p.stress[k].data() + first, count, ws.law.stress[k]);
+    transfer::storeLanes(p.volume.data() + first, count, ws.volume);
+}
 
-    if (hyperelastic() || plastic())
-        findStiffest(ws, first, count);
-    else
-        sums.largestJacobian = std::max(sums.largestJacobian, transfer::largest(ws.J));
-    workOfStrain<dim>(chunk.stress, chunk.dStrain, workAfter);
-    workOfStrain<dim>(chunk.stress, strainOfForces, workOfForcesAfter);
-    sums.strainWork += transfer::sumOfProducts(ws.volume, workOfForcesAfter);
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::findBadParticle(Workspace& ws, Index first, int count) const
+{
+    for (int l = 0; l < count && ws.sums.badParticle < 0; ++l)
+        if (!(ws.J[l] >= smallestVolumeRatio && ws.J[l] <= largestVolumeRatio))
+            ws.sums.badParticle = first + l;
+}
+
+/// The work that treatments start from: sigma : dt sym L of the averaged velocity gradient.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::prepareTreated(Workspace& ws, const state::Tile& tile, Index first, int count,
+                                                 double dt, const StrainColumns<dim>& columns, double (&trace)[lanes])
+{
+    for (int k = 0; k < stressSize<dim>; ++k)
+        if (columns.stress[k] != ws.law.stress[k])
+            std::copy_n(columns.stress[k], lanes, ws.law.stress[k]);
+    transfer::loadLanesOrZero(state_.particles.volume.data() + first, count, ws.volumeBefore);
+    takeAveragedGradient(ws, tile, first, count);
+    constitutive::strainIncrement(ws.L, dt, ws.strainOfForces);
+    workOfStrain<dim>(ws.law.stress, ws.strainOfForces, ws.workOfForces);
+    ws.sums.strainWorkBefore += transfer::sumOfProducts(ws.volumeBefore, ws.workOfForces);
+    treatBefore(ws, tile, first, count, dt, ws.strainOfForces, trace, ws.workOfForces);
+}
+
+/// Sums that treatments and hyperelastic laws change first.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::bookKept(Workspace& ws, Index first, int count, double dt,
+                                           const double (&trace)[lanes])
+{
     if (treated())
-        treatAfter(ws, first, count, dt, trace, workOfForcesAfter);
-    elasticEnergy(chunk, ws.halfOverBulk, ws.quarterOverShear, energy);
+        treatAfter(ws, first, count, dt, trace, ws.workOfForcesAfter);
+    for (int l = 0; l < lanes; ++l)
+        ws.missed[l] -= 0.5 * ws.volume[l] * ws.workOfForcesAfter[l];
     if (hyperelastic())
     {
         storedEnergy(ws, first, count, ws.stored); // of F as it is stored
         forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
             for (int l = 0; l < lanes; ++l)
                 if (mine(l))
-                    energy[l] = ws.stored[l] / ws.J[l];
+                {
+                    ws.energy[l] = ws.stored[l] / ws.J[l];
+                    ws.missed[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
+                                   0.5 * (ws.volumeBefore[l] * ws.workOfForces[l] +
+                                          ws.volume[l] * ws.workOfForcesAfter[l]);
+                }
         });
     }
-    sums.strainEnergy += transfer::sumOfProducts(ws.volume, energy);
-    for (int l = 0; l < lanes; ++l)
-    {
-        const double grown = ws.volume[l] - ws.volumeBefore[l];
-        energyBefore[l] = 0.5 * (energyBefore[l] + energy[l]) * grown +
-                          0.25 * (ws.volumeBefore[l] + ws.volume[l]) * (workTurned[l] + workAfter[l]) -
-                          0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
-    }
-    if (hyperelastic())
-        forHyperelastic(first, count, [&](const constitutive::Hyperelastic&, auto mine) {
-            for (int l = 0; l < lanes; ++l)
-                if (mine(l))
-                    energyBefore[l] =
-                        ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                        0.5 * (ws.volumeBefore[l] * workOfForces[l] + ws.volume[l] * workOfForcesAfter[l]);
-        });
-    sums.finiteStrainWork += transfer::sumOfLanes(energyBefore);
-    if (plastic())
-    {
-        sums.plasticWork += transfer::sumOfProducts(ws.volumeMiddle, chunk.plasticWork);
-        sums.apexVolume += transfer::sumOfProducts(ws.volume, chunk.apexStrain);
-        sums.apexReturns += chunk.apexReturns;
-        sums.maxYield = std::max(sums.maxYield, transfer::largest(chunk.yield));
-    }
-    if constexpr (Shape::followsStretch || hasCorners)
-        updateDomains(ws, first, count);
+    ws.sums.strainEnergy += transfer::sumOfProducts(ws.volume, ws.energy);
+    ws.sums.finiteStrainWork += transfer::sumOfLanes(ws.missed);
 }
 
 /// May a particle have to be split (splitting/splitParticles.hpp)? Looks with some room, for the rounding of what is
@@ -213,43 +227,52 @@ bool ExplicitStepper<dim, Shape>::longEdges(Workspace& ws, Index first, int coun
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::findStiffest(Workspace& ws, Index first, int count) const
 {
+    auto& most = ws.laneSums.largestJacobian;
+    const auto look = [&](const double(&ratio)[lanes]) {
+        for (int g = 0; g < lanes; g += 8)
+            most = largerOf(load(ratio + g), most);
+    };
+    if (!hyperelastic() && !(plastic() && ws.law.apexReturns > 0))
+        return look(ws.J);
     alignas(64) double stiffJ[lanes];
     for (int l = 0; l < lanes; ++l)
-        stiffJ[l] = ws.law.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
-    forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
-        alignas(64) double own[lanes];
-        law.waveFactor(ws.F, own);
-        for (int l = 0; l < lanes; ++l)
-            if (mine(l))
-                stiffJ[l] = own[l];
-    });
-    ws.sums.largestJacobian = std::max(ws.sums.largestJacobian, transfer::largest(stiffJ));
+        stiffJ[l] = plastic() && ws.law.region[l] == constitutive::Region::apex ? 1 : ws.J[l];
+    if (hyperelastic())
+        forHyperelastic(first, count, [&](const constitutive::Hyperelastic& law, auto mine) {
+            alignas(64) double own[lanes];
+            law.waveFactor(ws.F, own);
+            for (int l = 0; l < lanes; ++l)
+                if (mine(l))
+                    stiffJ[l] = own[l];
+        });
+    look(stiffJ);
 }
 
-/// 1/(2 K) and 1/(4 G) of each lane's material.
+/// 1/(2 K) and 1/(4 G) of each lane's material. Are they all of one?
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int count) const
-{
-    const std::int32_t* material = state_.particles.material.data() + first;
-    std::fill_n(ws.halfOverBulk, lanes, moduli_[std::size_t(material[0])][0]);
-    std::fill_n(ws.quarterOverShear, lanes, moduli_[std::size_t(material[0])][1]);
-    for (int l = 1; l < count; ++l)
-        if (material[l] != material[0])
-        {
-            ws.halfOverBulk[l] = moduli_[std::size_t(material[l])][0];
-            ws.quarterOverShear[l] = moduli_[std::size_t(material[l])][1];
-        }
-}
-
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk) const
+bool ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int count) const
 {
     const std::int32_t* material = state_.particles.material.data() + first;
     std::int32_t different = 0;
     for (int l = 0; l < count; ++l)
         different |= material[l] ^ material[0];
-    if (different == 0)
+    std::fill_n(ws.halfOverBulk, lanes, moduli_[std::size_t(material[0])][0]);
+    std::fill_n(ws.quarterOverShear, lanes, moduli_[std::size_t(material[0])][1]);
+    for (int l = 1; l < count && different != 0; ++l)
+    {
+        ws.halfOverBulk[l] = moduli_[std::size_t(material[l])][0];
+        ws.quarterOverShear[l] = moduli_[std::size_t(material[l])][1];
+    }
+    return different == 0;
+}
+
+/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk,
+                                           bool oneMaterial) const
+{
+    const std::int32_t* material = state_.particles.material.data() + first;
+    if (oneMaterial)
     {
         scene_.materials[std::size_t(material[0])].law->update(chunk);
         return;

@@ -150,7 +150,8 @@ void ExplicitStepper<dim, Shape>::treatAfter(Workspace& ws, Index first, int cou
 
 /// The laws with histories and tension gaps; what they leave of plastic volume change, and that they yielded.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt)
+void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt,
+                                                  bool oneMaterial)
 {
     auto& p = state_.particles;
     auto& chunk = ws.law;
@@ -166,14 +167,15 @@ void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, in
     }
     if (hasHistory())
         transfer::loadLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
-    callLaws(first, count, chunk);
+    callLaws(first, count, chunk, oneMaterial);
     if (hasHistory())
         transfer::storeLanes(p.plasticStrain.data() + first, count, chunk.plasticStrain);
     if (scene_.treatment.tensionGap && (open || chunk.apexReturns > 0))
     {
         treatment::closeGap(chunk, ws.gap);
         transfer::storeLanes(p.tensionGap.data() + first, count, ws.gap.gap);
-        ws.sums.gapWork += transfer::sumOfProducts(ws.volumeMiddle, ws.gap.work);
+        ws.sums.gapWork += 0.5 * (transfer::sumOfProducts(ws.volumeBefore, ws.gap.work) +
+                                  transfer::sumOfProducts(ws.volume, ws.gap.work));
     }
     if (scene_.treatment.followsFlow())
     {

@@ -127,6 +127,18 @@ template <class T>
     std::fill(out + count, out + lanes, column[count - 1]);
 }
 
+/// Lanes a sweep may change in place: the column's own, or a copy where it holds fewer particles or floats; the copy
+/// goes back by storeLanes.
+template <class T>
+[[gnu::always_inline]] inline double* lanesInPlace(T* column, int count, Lanes& copy)
+{
+    if constexpr (std::is_same_v<T, double>)
+        if (count == lanes)
+            return column;
+    loadLanes(column, count, copy);
+    return copy;
+}
+
 /// The same with zero in the lanes beyond: masses and volumes, so that sums over all lanes are those of the particles.
 template <class T>
 [[gnu::always_inline]] inline void loadLanesOrZero(const T* column, int count, Lanes& out)
