@@ -1,13 +1,16 @@
 #include "state/particles.hpp"
 
+#include "state/permutation.hpp"
+
 #include <algorithm>
 #include <tuple>
+#include <variant>
 
 namespace mpm::state
 {
 namespace
 {
-constexpr Index manyParticles = 100000; ///< worth a second thread
+constexpr Index manyParticles = 20000; ///< worth a second thread
 
 Index padded(Index n)
 {
@@ -101,21 +104,25 @@ void Particles::padLastChunk()
         mass[i] = volume0[i] = volume[i] = 0;
 }
 
+void Particles::permute(Order order)
+{
+    const Permutation permutation(std::move(order));
+    std::vector<std::variant<Column<double>*, Column<float>*, Column<std::int64_t>*, Column<std::int32_t>*>> columns;
+    forEachColumn([&](auto& column) { columns.emplace_back(&column); });
+#pragma omp parallel if (size_ > manyParticles && !permutation.scatters())
+    {
+        std::tuple<Column<double>, Column<float>, Column<std::int64_t>, Column<std::int32_t>> kept;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            std::visit([&]<class T>(Column<T>* column) { permutation.move(*column, std::get<Column<T>>(kept)); },
+                       columns[c]);
+    }
+    padLastChunk();
+}
+
 void Particles::permute(const std::vector<Index>& order)
 {
-    std::tuple<Column<double>, Column<float>, Column<std::int64_t>, Column<std::int32_t>> scratch;
-    const Index* from = order.data();
-    forEachColumn([&]<class T>(Column<T>& column) {
-        auto& sorted = std::get<Column<T>>(scratch);
-        sorted.resize(column.size());
-        const T* in = column.data();
-        T* out = sorted.data();
-#pragma omp parallel for schedule(static) if (size_ > manyParticles)
-        for (Index i = 0; i < size_; ++i)
-            out[i] = in[from[i]];
-        column.swap(sorted);
-    });
-    padLastChunk();
+    permute(Order(order.begin(), order.end()));
 }
 
 Index Particles::appendCopy(Index i)

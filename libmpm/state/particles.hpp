@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace mpm::state
 {
 template <class T>
 using Column = AlignedVector<T>;
+
+/// order[i]: the particle that belongs at place i. 32 bits are enough for a terabyte of particles.
+using Order = AlignedVector<std::uint32_t>;
 
 struct Particles;
 
@@ -99,6 +103,7 @@ struct Particles
     void resize(Index n);
     void padLastChunk();
     /// Reorders all columns: new[i] = old[order[i]].
+    void permute(Order order);
     void permute(const std::vector<Index>& order);
     /// Appends a copy of particle i and returns its index.
     Index appendCopy(Index i);
