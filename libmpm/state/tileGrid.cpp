@@ -1,5 +1,6 @@
 #include "state/tileGrid.hpp"
 
+#include <bit>
 #include <tuple>
 
 namespace mpm::state
@@ -50,53 +51,91 @@ std::array<Index, 3> TileLayout::base(Index key) const
 
 void TileGrid::build(const Particles& particles, const TileLayout& layout, int below, int above)
 {
-    layout_.assign(1, layout);
-    findTiles(particles, below, above);
-    findBlocks();
-    findSharedBoxes();
+    const bool known = layout_.size() == 1 && layout_.front() == layout;
+    if (!known)
+        layout_.assign(1, layout);
+    if (findTiles(particles, below, above) || !known)
+    {
+        findBlocks();
+        findSharedBoxes();
+    }
 }
 
-void TileGrid::findTiles(const Particles& particles, int below, int above)
+namespace
+{
+/// Of the particles from `first` on, the one behind the last of the same tile.
+std::size_t endOfTile(const Column<std::int64_t>& key, std::size_t first, std::size_t end, const TileLayout& layout)
+{
+    const Index own = layout.tile(key[first]);
+    const auto stays = [&](std::size_t i) { return i < end && layout.tile(key[i]) == own; };
+    std::size_t last = first, step = 1; // doubled until it is too far, then halved
+    for (; stays(last + step); step *= 2)
+        last += step;
+    for (; step > 0; step /= 2)
+        if (stays(last + step))
+            last += step;
+    return last + 1;
+}
+
+/// Nodes from `first` to the particle before `end`, all of one tile: the smallest and largest base of each axis.
+NodeBox basesOf(const Column<std::int64_t>& key, std::size_t first, std::size_t end, const TileLayout& layout)
+{
+    const Index inside = (Index(1) << layout.bits()) - 1;
+    const auto corner = layout.base(key[first] & ~((Index(1) << (layout.dim() * layout.bits())) - 1));
+    NodeBox box;
+    box.n = {1, 1, 1};
+    for (int a = 0; a < layout.dim(); ++a)
+    {
+        const int shift = a * layout.bits();
+        std::uint32_t found = 0; // bit i: node i of the tile
+        for (std::size_t i = first; i < end; ++i)
+            found |= std::uint32_t(1) << ((key[i] >> shift) & inside);
+        const Index low = std::countr_zero(found), high = std::bit_width(found) - 1;
+        box.lo[a] = corner[a] + low;
+        box.n[a] = high - low + 1;
+    }
+    return box;
+}
+} // namespace
+
+bool TileGrid::findTiles(const Particles& particles, int below, int above)
 {
     const TileLayout& layout = layout_.front();
     constexpr Index margin = 1;
-    tiles_.clear();
-    std::size_t records = 0;
+    const auto& key = particles.sortKey;
+    const std::size_t end = std::size_t(particles.size());
+    std::size_t count = 0, records = 0;
+    bool changed = false;
     largestWindow_ = 0;
-    for (Index i = 0; i < particles.size();)
+    for (std::size_t i = 0; i < end; ++count)
     {
-        const Index own = layout.tile(particles.sortKey[std::size_t(i)]);
-        std::array<Index, 3> low = layout.base(particles.sortKey[std::size_t(i)]), high = low;
-        Tile tile;
-        tile.first = i;
-        tile.body = layout.hasBodies() ? layout.body(particles.sortKey[std::size_t(i)]) : 0;
-        Index previous = -1;
-        for (; i < particles.size() && layout.tile(particles.sortKey[std::size_t(i)]) == own; ++i)
-        {
-            if (particles.sortKey[std::size_t(i)] == previous)
-                continue;
-            previous = particles.sortKey[std::size_t(i)];
-            const auto base = layout.base(previous);
-            for (int a = 0; a < layout.dim(); ++a)
-            {
-                low[a] = std::min(low[a], base[a]);
-                high[a] = std::max(high[a], base[a]);
-            }
-        }
-        tile.count = i - tile.first;
-        tile.window.n = {1, 1, 1};
+        const std::size_t first = i;
+        i = endOfTile(key, first, end, layout);
+        NodeBox window = basesOf(key, first, i, layout);
         for (int a = 0; a < layout.dim(); ++a)
         {
-            tile.window.lo[a] = low[a] - below - margin;
-            tile.window.n[a] = high[a] + above + margin - tile.window.lo[a] + 1;
+            window.lo[a] -= below + margin;
+            window.n[a] += below + above + 2 * margin;
         }
+        const int body = layout.hasBodies() ? layout.body(key[first]) : 0;
+        if (count == tiles_.size())
+            tiles_.emplace_back();
+        Tile& tile = tiles_[count];
+        changed = changed || tile.body != body || !(tile.window == window);
+        tile.first = Index(first);
+        tile.count = Index(i - first);
+        tile.body = body;
+        tile.window = window;
         tile.start = records;
-        records += std::size_t(tile.window.size());
-        largestWindow_ = std::max(largestWindow_, tile.window.size());
-        tiles_.push_back(std::move(tile));
+        tile.resting = false;
+        records += std::size_t(window.size());
+        largestWindow_ = std::max(largestWindow_, window.size());
     }
+    changed = changed || count != tiles_.size();
+    tiles_.resize(count);
     if (windows_.size() < records)
         windows_.resize(records + records / 8);
+    return changed;
 }
 
 namespace
@@ -169,6 +208,8 @@ void TileGrid::findBlocks()
         return std::tie(a.key, a.overlap.tile, a.overlap.move) < std::tie(b.key, b.overlap.tile, b.overlap.move);
     });
     blocks_.clear();
+    for (Tile& tile : tiles_)
+        tile.blocks.clear();
     std::size_t records = 0;
     for (std::size_t o = 0; o < overlaps.size();)
     {

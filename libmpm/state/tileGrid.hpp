@@ -50,6 +50,8 @@ class TileLayout
 
     int dim() const { return dim_; }
     int bits() const { return bits_; }
+    /// Boxes along an axis, one beyond the grid on either side included.
+    Index boxes(int axis) const { return boxes_[std::size_t(axis)]; }
     /// Index of the box that holds lattice index i along an axis.
     Index box(Index i) const { return (i >> bits_) + 1; }
     /// Nodes after which an axis repeats itself; 0 where it does not.
@@ -63,6 +65,7 @@ class TileLayout
     std::array<Index, 3> firstNode(Index boxKey) const;
 
     static constexpr int bitsOf(int dim) { return dim == 2 ? 4 : 3; }
+    bool operator==(const TileLayout&) const = default;
 
   private:
     int dim_, bits_;
@@ -74,6 +77,7 @@ class TileLayout
 struct NodeBox
 {
     std::array<Index, 3> lo{}, n{};
+    bool operator==(const NodeBox&) const = default;
     Index size() const { return n[0] * n[1] * n[2]; }
     Index offset(Index i, Index j, Index k) const { return ((k - lo[2]) * n[1] + (j - lo[1])) * n[0] + (i - lo[0]); }
     bool contains(Index i, Index j, Index k) const
@@ -250,7 +254,8 @@ class TileGrid
         for (Index i = 0; i < count; i += 64 / sizeof(R))
             __builtin_prefetch(row + i);
     }
-    void findTiles(const Particles& particles, int below, int above);
+    /// False if windows are where they were.
+    bool findTiles(const Particles& particles, int below, int above);
     void findBlocks();
     void findSharedBoxes();
 

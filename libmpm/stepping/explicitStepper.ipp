@@ -204,10 +204,7 @@ void ExplicitStepper<dim, Shape>::buildTiles(bool look)
     workspaces_.resize(std::size_t(std::max(1, omp_get_max_threads())));
     for (int a = 0; a < dim; ++a)
         next_[a].resize(p.mass.size());
-    double largest = 0;
-    for (Index i = 0; i < p.size(); ++i)
-        largest = std::max(largest, p.mass[std::size_t(i)]);
-    smallestMass_ = largest * 1e-60; // below it 1/m could overflow; far under any weight that matters
+    smallestMass_ = largestMass(p) * 1e-60; // below it 1/m could overflow; far under any weight that matters
     if constexpr (Shape::hasDomain)
     {
         auto ws = std::make_unique<Workspace>();

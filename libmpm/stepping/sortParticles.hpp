@@ -16,6 +16,8 @@ void sortLoose(state::State& state, const state::TileLayout& layout, int support
 void wrapPositions(state::State& state);
 /// Do the keys a state carries name the bodies its materials now belong to?
 bool keysNameBodies(const state::State& state, const state::TileLayout& layout);
+/// Of all particles.
+double largestMass(const state::Particles& particles);
 /// Sort by the keys the state carries (after loading).
 void sortByStoredKeys(state::State& state);
 } // namespace mpm::stepping
