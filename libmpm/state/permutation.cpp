@@ -34,12 +34,19 @@ Permutation::Permutation(Order order) : from_(std::move(order))
 
 namespace
 {
+/// Pairs of loads and one store; the processor's gathers take half as long again.
 template <class T>
-[[gnu::noinline]] void gather(T* __restrict to, const T* __restrict old, const std::uint32_t* __restrict from,
-                              std::size_t count)
+void gather(T* __restrict to, const T* __restrict old, const std::uint32_t* __restrict from, std::size_t count)
 {
-#pragma GCC unroll 8
-    for (std::size_t i = 0; i < count; ++i)
+    constexpr std::size_t row = 8;
+    std::size_t i = 0;
+    for (; i + row <= count; i += row)
+    {
+        const T v[row] = {old[from[i]],     old[from[i + 1]], old[from[i + 2]], old[from[i + 3]],
+                          old[from[i + 4]], old[from[i + 5]], old[from[i + 6]], old[from[i + 7]]};
+        std::copy_n(v, row, to + i);
+    }
+    for (; i < count; ++i)
         to[i] = old[from[i]];
 }
 } // namespace
