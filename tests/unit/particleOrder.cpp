@@ -92,7 +92,7 @@ TEST_CASE("a few particles out of place, near and far, and children at the end")
     std::mt19937_64 engine(2);
     for (const double moved : {1e-4, 1e-3, 1e-2, 0.1, 0.3})
     {
-        std::vector<std::int64_t> keys(20000);
+        std::vector<std::int64_t> keys(21000); // enough for threads
         for (std::size_t i = 0; i < keys.size(); ++i)
             keys[i] = std::int64_t(i / 4);
         auto p = particles(keys, 3);
