@@ -150,7 +150,7 @@ class Group
     {
         for (std::size_t i = 1; i < ids_.size(); ++i)
         {
-            if ((keys_[i] != keys_[i - 1]) | (ids_[i - 1] < ids_[i]))
+            if (int(keys_[i] != keys_[i - 1]) | int(ids_[i - 1] < ids_[i])) // one branch instead of two
                 continue;
             const auto id = ids_[i];
             const auto particle = out[i];
