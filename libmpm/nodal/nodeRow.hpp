@@ -2,7 +2,7 @@
 /// One row of nodes (constant j, k) while the nodal equations are solved, METHOD Eqs. 1-3 and Walls.
 ///
 /// Before: record lanes hold mass, momentum, force. The row turns them into velocity before (v_i) and trial velocity
-/// u = v_i + dt f/m; body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
+/// u = v_i + dt (f/m + g); body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
 #include "base/record.hpp"
 #include "base/types.hpp"
 #include "nodal/contactBody.hpp"
@@ -57,6 +57,25 @@ struct NodeSums
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
     Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]
+    /// What NodeEquations sum, lane by lane, until gather() adds it to the numbers above: m v_i^2 and m v*^2, dt f . v_i
+    /// and dt f . v*, dt g . (v_i + v*) m and dt g m.
+    Record kinetic{}, work{}, gravity{}, weight{};
+
+    template <int dim>
+    void gather()
+    {
+        for (int a = 0; a < dim; ++a)
+        {
+            const int before = 1 + a, after = 1 + dim + a;
+            kineticBefore += 0.5 * kinetic[before];
+            kineticAfter += 0.5 * kinetic[after];
+            forceWorkBefore += work[before];
+            forceWork += work[after];
+            gravityWork += 0.5 * gravity[after];
+            gravityImpulse[std::size_t(a)] += weight[after];
+        }
+        kinetic = work = gravity = weight = {};
+    }
 
     NodeSums& operator+=(const NodeSums& o)
     {
@@ -82,6 +101,10 @@ struct NodeSums
             dampingImpulse[a] += o.dampingImpulse[a];
             restImpulse[a] += o.restImpulse[a];
         }
+        kinetic += o.kinetic;
+        work += o.work;
+        gravity += o.gravity;
+        weight += o.weight;
         return *this;
     }
 };
@@ -96,6 +119,7 @@ struct NodeRow
     double dt = 0;
     double time = 0;         ///< at the start of the step [s]
     double smallestMass = 0; ///< nodes lighter than this carry nothing
+    Vector3 gravity{};       ///< mean over the step; none for nodes that are driven
     NodeSums* sums = nullptr;
     /// What walls did at each node of the row, all empty while none touched it.
     struct WallScratch
@@ -180,45 +204,94 @@ struct NodeLanes
     }
 };
 
+/// The equations of the nodes of a row, one record at a time: (m, p, f) -> (m, v_i, u) -> (m, v*, a), and what is
+/// summed over them.
+template <int dim>
+class NodeEquations
+{
+  public:
+    explicit NodeEquations(const NodeRow<dim>& row) : dt_(row.dt), smallestMass_(row.smallestMass)
+    {
+        for (int a = 0; a < dim; ++a)
+            gain_[row.trial + a] = row.dt * row.gravity[std::size_t(a)];
+    }
+
+    /// p -> v_i, f -> u by forces and gravity; nothing moves where there is no mass.
+    MPM_INLINE Record begin(const Record& r) const
+    {
+        const double inverse = r[0] > smallestMass_ ? 1 / r[0] : 0.0;
+        const Record rates = r * inverse; // (1, v, f/m)
+        const Record gain = select(splat<Record>(inverse) > Record{}, gain_, Record{});
+        return select(Lanes::velocity(), rates,
+                      select(Lanes::trial(), Lanes::toTrial(rates) + (dt_ * rates + gain), r));
+    }
+
+    /// Sums of a node once its u is final.
+    MPM_INLINE void book(const Record& projected, const Record& r)
+    {
+        const Record momentum = r[0] * r;
+        mass_ += r;
+        momentum_ += momentum;
+        kinetic_ += momentum * r;
+        work_ += select(Lanes::velocity(), Lanes::toVelocity(projected), projected) * r;
+        lightest_ = r[0] > smallestMass_ ? std::min(lightest_, r[0]) : lightest_;
+    }
+
+    /// u -> v* and a.
+    MPM_INLINE static Record end(const Record& r, double inverseDt)
+    {
+        const Record acceleration = inverseDt * (r - Lanes::toTrial(r));
+        return select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
+    }
+
+    /// Adds what was booked to the sums of the row.
+    void addTo(NodeSums& sums) const
+    {
+        sums.kinetic += kinetic_;
+        sums.work += dt_ * work_;
+        sums.gravity += gain_ * (momentum_ + Lanes::toTrial(momentum_));
+        sums.weight += mass_[0] * gain_;
+        sums.lightest = std::min(sums.lightest, lightest_);
+    }
+
+  private:
+    using Lanes = NodeLanes<dim>;
+    double dt_, smallestMass_, lightest_ = std::numeric_limits<double>::infinity();
+    Record gain_{}, mass_{}, momentum_{}, kinetic_{}, work_{};
+};
+
+/// A row whose nodes feel nothing but forces and gravity, in one go.
+template <int dim>
+void solveFreeRow(NodeRow<dim>& row, double inverseDt)
+{
+    NodeEquations<dim> equations(row);
+    for (Index i = row.begin; i < row.end; ++i)
+    {
+        const Record projected = row.node[i], r = equations.begin(projected);
+        equations.book(projected, r);
+        row.node[i] = equations.end(r, inverseDt);
+    }
+    equations.addTo(*row.sums);
+}
+
 /// f -> u for a row; p -> v_i.
 template <int dim>
 void beginRow(NodeRow<dim>& row)
 {
-    using Lanes = NodeLanes<dim>;
+    const NodeEquations<dim> equations(row);
     row.projected->assign(row.node + row.begin, row.node + row.end);
     for (Index i = row.begin; i < row.end; ++i)
-    {
-        Record& r = row.node[i];
-        const Record rates = r * (row.carries(i) ? 1 / r[0] : 0.0); // (1, v, f/m)
-        const Record trial = Lanes::toTrial(rates) + row.dt * rates;
-        r = select(Lanes::velocity(), rates, select(Lanes::trial(), trial, r));
-    }
+        row.node[i] = equations.begin(row.node[i]);
 }
 
-/// Books kinetic energies, wall work and the work of the projected forces, then (v_i, u) -> (v*, a).
+/// Books energies and work, that of walls too, then (v_i, u) -> (v*, a).
 template <int dim>
 void endRow(NodeRow<dim>& row, double inverseDt)
 {
-    using Lanes = NodeLanes<dim>;
-    Record kinetic{}, work{}, before{};
-    double lightest = row.sums->lightest;
+    NodeEquations<dim> equations(row);
     for (Index i = row.begin; i < row.end; ++i)
-    {
-        Record& r = row.node[i];
-        kinetic += r[0] * (r * r);
-        const Record& projected = (*row.projected)[std::size_t(i - row.begin)];
-        work += projected * r;
-        before += Lanes::toVelocity(projected) * r;
-        lightest = row.carries(i) ? std::min(lightest, r[0]) : lightest;
-    }
-    for (int a = 0; a < dim; ++a)
-    {
-        row.sums->kineticBefore += 0.5 * kinetic[row.velocity + a];
-        row.sums->kineticAfter += 0.5 * kinetic[row.trial + a];
-        row.sums->forceWork += row.dt * work[row.trial + a];
-        row.sums->forceWorkBefore += row.dt * before[row.velocity + a];
-    }
-    row.sums->lightest = lightest;
+        equations.book((*row.projected)[std::size_t(i - row.begin)], row.node[i]);
+    equations.addTo(*row.sums);
     if (!row.walls->pushed.empty())
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
@@ -247,10 +320,6 @@ void endRow(NodeRow<dim>& row, double inverseDt)
                 row.sums->wallImpulse[std::size_t(a)] += impulse;
             }
     for (Index i = row.begin; i < row.end; ++i)
-    {
-        Record& r = row.node[i];
-        const Record acceleration = inverseDt * (r - Lanes::toTrial(r));
-        r = select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
-    }
+        row.node[i] = equations.end(row.node[i], inverseDt);
 }
 } // namespace mpm::nodal

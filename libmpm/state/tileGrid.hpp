@@ -76,6 +76,8 @@ struct NodeBox
     std::array<Index, 3> lo{}, n{};
     Index size() const { return n[0] * n[1] * n[2]; }
     Index offset(Index i, Index j, Index k) const { return ((k - lo[2]) * n[1] + (j - lo[1])) * n[0] + (i - lo[0]); }
+    /// What the offset grows by with j and k.
+    Index stride(Index j, Index k) const { return (k * n[1] + j) * n[0]; }
     bool contains(Index i, Index j, Index k) const
     {
         return i >= lo[0] && i < lo[0] + n[0] && j >= lo[1] && j < lo[1] + n[1] && k >= lo[2] && k < lo[2] + n[2];
@@ -116,6 +118,8 @@ struct Overlap
 {
     Index tile = 0, block = 0;
     std::array<Index, 3> move{};
+    NodeBox nodes;   ///< of the block that the window holds
+    Index first = 0; ///< place of the first of them in the window
 };
 
 struct Tile
@@ -187,17 +191,15 @@ class TileGrid
     {
         for (const Overlap& overlap : block.tiles)
         {
+            const NodeBox& nodes = overlap.nodes;
+            if (j < nodes.lo[1] || j >= nodes.lo[1] + nodes.n[1] || k < nodes.lo[2] || k >= nodes.lo[2] + nodes.n[2])
+                continue;
             const Tile& tile = tiles_[std::size_t(overlap.tile)];
             if (sizeof(R) < sizeof(Record) && tile.resting)
                 continue;
-            const NodeBox nodes = tile.window.moved(overlap.move);
-            const Index i0 = std::max(block.box.lo[0], nodes.lo[0]);
-            const Index i1 = std::min(block.box.lo[0] + block.box.n[0], nodes.lo[0] + nodes.n[0]);
-            if (i0 >= i1 || !nodes.contains(i0, j, k))
-                continue;
-            const R* row = window<R>(tile) + nodes.offset(i0, j, k);
-            prefetch(row + nodes.n[0], i1 - i0);
-            add(i0, i1, row);
+            const R* row = window<R>(tile) + overlap.first + tile.window.stride(j - nodes.lo[1], k - nodes.lo[2]);
+            prefetch(row + tile.window.n[0], nodes.n[0]);
+            add(nodes.lo[0], nodes.lo[0] + nodes.n[0], row);
         }
     }
 
@@ -231,14 +233,15 @@ class TileGrid
         for (const Overlap& overlap : tile.blocks)
         {
             const Block& block = blocks_[std::size_t(overlap.block)];
-            const NodeBox window = tile.window.moved(overlap.move), both = window.common(block.box);
-            for (Index k = both.lo[2]; k < both.lo[2] + both.n[2]; ++k)
-                for (Index j = both.lo[1]; j < both.lo[1] + both.n[1]; ++j)
+            const NodeBox& nodes = overlap.nodes;
+            const From* first = values + block.start + block.box.offset(nodes.lo[0], nodes.lo[1], nodes.lo[2]);
+            for (Index k = 0; k < nodes.n[2]; ++k)
+                for (Index j = 0; j < nodes.n[1]; ++j)
                 {
-                    const From* from = values + block.start + block.box.offset(both.lo[0], j, k);
-                    To* to = out + window.offset(both.lo[0], j, k);
-                    prefetch(from + block.box.n[0], both.n[0]);
-                    for (Index i = 0; i < both.n[0]; ++i)
+                    const From* from = first + block.box.stride(j, k);
+                    To* to = out + overlap.first + tile.window.stride(j, k);
+                    prefetch(from + block.box.n[0], nodes.n[0]);
+                    for (Index i = 0; i < nodes.n[0]; ++i)
                         to[i] = repack(from[i]);
                 }
         }

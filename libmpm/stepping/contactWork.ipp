@@ -49,7 +49,10 @@ void ExplicitStepper<dim, Shape>::finishSharedRows()
         row.projected->assign(from, from + (row.end - row.begin));
         row.contact = contact_->impulses().data() + at - row.begin;
         if (!prescribed(row.body))
+        {
+            addGravity(row);
             applyWalls(row);
+        }
         if (bounded() && !kept_.byWalls[at].pushed.empty())
             row.walls->add(kept_.byWalls[at]);
         finishRow(row);

@@ -162,6 +162,8 @@ class ExplicitStepper : public Stepper
     static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
     void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
     void swapTrial(nodal::NodeRow<dim>& row) const;
+    bool free(const nodal::NodeRow<dim>& row, const state::Block& block) const;
+    void addGravity(nodal::NodeRow<dim>& row) const;
     void solveRow(nodal::NodeRow<dim>& row);
     void finishRow(nodal::NodeRow<dim>& row);
 

@@ -164,13 +164,37 @@ bool ExplicitStepper<dim, Shape>::driven() const
     return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
 }
 
+/// Do the row's nodes feel nothing but forces and gravity?
+template <int dim, class Shape>
+bool ExplicitStepper<dim, Shape>::free(const nodal::NodeRow<dim>& row, const state::Block& block) const
+{
+    if (!effects_.empty() || !bodies_.empty() || !absorbing_.empty() || scene_.localDamping || shared(block) ||
+        prescribed(row.body))
+        return false;
+    for (const auto& wall : walls_)
+        if (wall.meets(row))
+            return false;
+    return true;
+}
+
+template <int dim, class Shape>
+void ExplicitStepper<dim, Shape>::addGravity(nodal::NodeRow<dim>& row) const
+{
+    if (scene_.gravity)
+        row.gravity = nodal::meanGravity(*scene_.gravity, scene_.gravityRamp, row.time, row.dt);
+}
+
 /// (m, p, f) -> (v_i, u) by forces, body effects and walls.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 {
-    nodal::beginRow(row);
     if (prescribed(row.body))
+    {
+        nodal::beginRow(row);
         return contact_->drive(row, state_.grid);
+    }
+    addGravity(row);
+    nodal::beginRow(row);
     for (const auto& effect : effects_)
         effect->apply(row);
     if (bounded_)
@@ -259,6 +283,11 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
             if (!loaded)
                 sumNodes<transfer::Forces>(row, block);
             row.dt = kick_;
+            if (free(row, block))
+            {
+                addGravity(row);
+                return nodal::solveFreeRow(row, 1 / kick_);
+            }
             solveRow(row);
             if (shared(block))
                 keepRow(row, block);
@@ -277,6 +306,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
             sums += block;
         bookContact(sums);
     }
+    sums.gather<dim>();
     auto& ledger = state_.ledger;
     work_.ofForcesBefore -= sums.forceWorkBefore;
     work_.ofForces -= sums.forceWork;
@@ -361,9 +391,10 @@ void ExplicitStepper<dim, Shape>::projectAgainToRow(const nodal::NodeRow<dim>& r
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum)
 {
-    const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
-    for (int a = 0; a < dim; ++a)
-        row.node[i][1 + dim + a] = inverse * momentum[1 + a];
+    Record& r = row.node[i];
+    const double inverse = row.carries(i) ? 1 / r[0] : 0;
+    const HalfRecord w = inverse * momentum;
+    r = select(nodal::NodeLanes<dim>::trial(), nodal::NodeLanes<dim>::toTrial(join(w, w)), r);
 }
 
 /// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand.
