@@ -74,7 +74,7 @@ struct NodeSums
             gravityWork += 0.5 * gravity[after];
             gravityImpulse[std::size_t(a)] += weight[after];
         }
-        kinetic = work = gravity = weight = {};
+        kinetic = work = gravity = weight = Record{};
     }
 
     NodeSums& operator+=(const NodeSums& o)
@@ -119,7 +119,6 @@ struct NodeRow
     double dt = 0;
     double time = 0;         ///< at the start of the step [s]
     double smallestMass = 0; ///< nodes lighter than this carry nothing
-    Vector3 gravity{};       ///< mean over the step; none for nodes that are driven
     NodeSums* sums = nullptr;
     /// What walls did at each node of the row, all empty while none touched it.
     struct WallScratch
@@ -204,16 +203,16 @@ struct NodeLanes
     }
 };
 
-/// The equations of the nodes of a row, one record at a time: (m, p, f) -> (m, v_i, u) -> (m, v*, a), and what is
-/// summed over them.
+/// The equations of a node over a step, for its record as a whole: (m, p, f) -> (m, v_i, u) -> (m, v*, a).
 template <int dim>
 class NodeEquations
 {
   public:
-    explicit NodeEquations(const NodeRow<dim>& row) : dt_(row.dt), smallestMass_(row.smallestMass)
+    NodeEquations(double dt, double smallestMass, const Vector3& gravity)
+        : dt_(dt), inverseDt_(1 / dt), smallestMass_(smallestMass)
     {
         for (int a = 0; a < dim; ++a)
-            gain_[row.trial + a] = row.dt * row.gravity[std::size_t(a)];
+            gain_[1 + dim + a] = dt * gravity[std::size_t(a)];
     }
 
     /// p -> v_i, f -> u by forces and gravity; nothing moves where there is no mass.
@@ -226,59 +225,66 @@ class NodeEquations
                       select(Lanes::trial(), Lanes::toTrial(rates) + (dt_ * rates + gain), r));
     }
 
-    /// Sums of a node once its u is final.
-    MPM_INLINE void book(const Record& projected, const Record& r)
-    {
-        const Record momentum = r[0] * r;
-        mass_ += r;
-        momentum_ += momentum;
-        kinetic_ += momentum * r;
-        work_ += select(Lanes::velocity(), Lanes::toVelocity(projected), projected) * r;
-        lightest_ = r[0] > smallestMass_ ? std::min(lightest_, r[0]) : lightest_;
-    }
-
     /// u -> v* and a.
-    MPM_INLINE static Record end(const Record& r, double inverseDt)
+    MPM_INLINE Record end(const Record& r) const
     {
-        const Record acceleration = inverseDt * (r - Lanes::toTrial(r));
+        const Record acceleration = inverseDt_ * (r - Lanes::toTrial(r));
         return select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
     }
 
-    /// Adds what was booked to the sums of the row.
-    void addTo(NodeSums& sums) const
+    /// What they sum up over a row.
+    class Books
     {
-        sums.kinetic += kinetic_;
-        sums.work += dt_ * work_;
-        sums.gravity += gain_ * (momentum_ + Lanes::toTrial(momentum_));
-        sums.weight += mass_[0] * gain_;
-        sums.lightest = std::min(sums.lightest, lightest_);
-    }
+      public:
+        /// A node before, and once its u is final.
+        MPM_INLINE void add(const Record& projected, const Record& r, double smallestMass)
+        {
+            const Record momentum = r[0] * r;
+            mass_ += r;
+            momentum_ += momentum;
+            kinetic_ += momentum * r;
+            work_ += select(Lanes::velocity(), Lanes::toVelocity(projected), projected) * r;
+            lightest_ = r[0] > smallestMass ? std::min(lightest_, r[0]) : lightest_;
+        }
+
+        MPM_INLINE void close(NodeSums& sums, const NodeEquations& equations) const
+        {
+            sums.kinetic += kinetic_;
+            sums.work += equations.dt_ * work_;
+            sums.gravity += equations.gain_ * (momentum_ + Lanes::toTrial(momentum_));
+            sums.weight += mass_[0] * equations.gain_;
+            sums.lightest = std::min(sums.lightest, lightest_);
+        }
+
+      private:
+        Record mass_{}, momentum_{}, kinetic_{}, work_{};
+        double lightest_ = std::numeric_limits<double>::infinity();
+    };
 
   private:
     using Lanes = NodeLanes<dim>;
-    double dt_, smallestMass_, lightest_ = std::numeric_limits<double>::infinity();
-    Record gain_{}, mass_{}, momentum_{}, kinetic_{}, work_{};
+    Record gain_{};
+    double dt_, inverseDt_, smallestMass_;
 };
 
 /// A row whose nodes feel nothing but forces and gravity, in one go.
 template <int dim>
-void solveFreeRow(NodeRow<dim>& row, double inverseDt)
+void solveFreeRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
 {
-    NodeEquations<dim> equations(row);
+    typename NodeEquations<dim>::Books books;
     for (Index i = row.begin; i < row.end; ++i)
     {
         const Record projected = row.node[i], r = equations.begin(projected);
-        equations.book(projected, r);
-        row.node[i] = equations.end(r, inverseDt);
+        books.add(projected, r, row.smallestMass);
+        row.node[i] = equations.end(r);
     }
-    equations.addTo(*row.sums);
+    books.close(*row.sums, equations);
 }
 
 /// f -> u for a row; p -> v_i.
 template <int dim>
-void beginRow(NodeRow<dim>& row)
+void beginRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
 {
-    const NodeEquations<dim> equations(row);
     row.projected->assign(row.node + row.begin, row.node + row.end);
     for (Index i = row.begin; i < row.end; ++i)
         row.node[i] = equations.begin(row.node[i]);
@@ -286,12 +292,12 @@ void beginRow(NodeRow<dim>& row)
 
 /// Books energies and work, that of walls too, then (v_i, u) -> (v*, a).
 template <int dim>
-void endRow(NodeRow<dim>& row, double inverseDt)
+void endRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
 {
-    NodeEquations<dim> equations(row);
+    typename NodeEquations<dim>::Books books;
     for (Index i = row.begin; i < row.end; ++i)
-        equations.book((*row.projected)[std::size_t(i - row.begin)], row.node[i]);
-    equations.addTo(*row.sums);
+        books.add((*row.projected)[std::size_t(i - row.begin)], row.node[i], row.smallestMass);
+    books.close(*row.sums, equations);
     if (!row.walls->pushed.empty())
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
@@ -320,6 +326,6 @@ void endRow(NodeRow<dim>& row, double inverseDt)
                 row.sums->wallImpulse[std::size_t(a)] += impulse;
             }
     for (Index i = row.begin; i < row.end; ++i)
-        row.node[i] = equations.end(row.node[i], inverseDt);
+        row.node[i] = equations.end(row.node[i]);
 }
 } // namespace mpm::nodal

@@ -42,6 +42,7 @@ void ExplicitStepper<dim, Shape>::keepRow(const nodal::NodeRow<dim>& row, const 
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishSharedRows()
 {
+    const auto equations = this->equations(kick_);
     forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         const std::size_t at = block.start + std::size_t(block.box.offset(row.begin, row.j, row.k));
         const auto from = kept_.projected.begin() + std::ptrdiff_t(at);
@@ -49,13 +50,10 @@ void ExplicitStepper<dim, Shape>::finishSharedRows()
         row.projected->assign(from, from + (row.end - row.begin));
         row.contact = contact_->impulses().data() + at - row.begin;
         if (!prescribed(row.body))
-        {
-            addGravity(row);
             applyWalls(row);
-        }
         if (bounded() && !kept_.byWalls[at].pushed.empty())
             row.walls->add(kept_.byWalls[at]);
-        finishRow(row);
+        finishRow(row, equations);
     });
 }
 

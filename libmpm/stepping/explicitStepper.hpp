@@ -160,12 +160,13 @@ class ExplicitStepper : public Stepper
     void strainVelocities(double dt, bool secondProjection);
     void projectAgainToRow(const nodal::NodeRow<dim>& row, const state::Block& block);
     static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
-    void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
+    void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block,
+                        const nodal::NodeEquations<dim>& equations);
     void swapTrial(nodal::NodeRow<dim>& row) const;
     bool free(const nodal::NodeRow<dim>& row, const state::Block& block) const;
-    void addGravity(nodal::NodeRow<dim>& row) const;
-    void solveRow(nodal::NodeRow<dim>& row);
-    void finishRow(nodal::NodeRow<dim>& row);
+    nodal::NodeEquations<dim> equations(double dt) const;
+    void solveRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations);
+    void finishRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations);
 
     // contact between bodies, in contactWork.ipp
     static nodal::ParticleReach particleReach();

@@ -177,24 +177,23 @@ bool ExplicitStepper<dim, Shape>::free(const nodal::NodeRow<dim>& row, const sta
     return true;
 }
 
+/// Those of a step of dt at nodes that are free to move.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::addGravity(nodal::NodeRow<dim>& row) const
+nodal::NodeEquations<dim> ExplicitStepper<dim, Shape>::equations(double dt) const
 {
+    Vector3 g{};
     if (scene_.gravity)
-        row.gravity = nodal::meanGravity(*scene_.gravity, scene_.gravityRamp, row.time, row.dt);
+        g = nodal::meanGravity(*scene_.gravity, scene_.gravityRamp, state_.time, dt);
+    return {dt, smallestMass_, g};
 }
 
 /// (m, p, f) -> (v_i, u) by forces, body effects and walls.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
+void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations)
 {
+    nodal::beginRow(row, equations);
     if (prescribed(row.body))
-    {
-        nodal::beginRow(row);
         return contact_->drive(row, state_.grid);
-    }
-    addGravity(row);
-    nodal::beginRow(row);
     for (const auto& effect : effects_)
         effect->apply(row);
     if (bounded_)
@@ -207,18 +206,18 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 
 /// (v_i, u) -> (v*, a); books what was done.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
+void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations)
 {
     if (prescribed(row.body))
     {
         contact_->bookDrive(row);
-        return nodal::endRow(row, 1 / kick_);
+        return nodal::endRow<dim>(row, {kick_, smallestMass_, {}}); // no work of gravity
     }
     if (scene_.localDamping)
         localDamping_->apply(row);
     for (const auto& effect : effects_)
         effect->book(row);
-    nodal::endRow(row, 1 / kick_);
+    nodal::endRow(row, equations);
 }
 
 /// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes. Nodes of blocks that bodies
@@ -277,6 +276,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         for (auto& surface : carriers_)
             surface.scatter(state_.grid, grid_, smallestMass_);
     }
+    const auto equations = this->equations(kick_);
     forEachRow(
         blocks,
         [&](nodal::NodeRow<dim>& row, const state::Block& block) {
@@ -284,15 +284,12 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
                 sumNodes<transfer::Forces>(row, block);
             row.dt = kick_;
             if (free(row, block))
-            {
-                addGravity(row);
-                return nodal::solveFreeRow(row, 1 / kick_);
-            }
-            solveRow(row);
+                return nodal::solveFreeRow(row, equations);
+            solveRow(row, equations);
             if (shared(block))
                 keepRow(row, block);
             else
-                finishRow(row);
+                finishRow(row, equations);
         },
         inPart_);
     nodal::NodeSums sums;
@@ -349,6 +346,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
     Clock clock(times_.nodal);
     if (secondProjection && !touches() && !contact_)
         return forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) { projectAgainToRow(row, block); });
+    const auto equations = this->equations(dt);
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         row.dt = dt;
         if (secondProjection)
@@ -361,7 +359,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         }
         else
         {
-            foreseeContact(row, block);
+            foreseeContact(row, block, equations);
             if (!shared(block))
                 swapTrial(row);
         }
@@ -399,14 +397,15 @@ void ExplicitStepper<dim, Shape>::setStrainVelocity(const nodal::NodeRow<dim>& r
 
 /// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block)
+void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block,
+                                                 const nodal::NodeEquations<dim>& equations)
 {
     sumNodes<transfer::Forces>(row, block);
     nodal::NodeSums unbooked;
     auto* const booked = row.sums;
     row.sums = &unbooked;
     row.actors = nullptr;
-    solveRow(row);
+    solveRow(row, equations);
     row.sums = booked;
 }
 
