@@ -57,8 +57,8 @@ struct NodeSums
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
     Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]
-    /// What NodeEquations sum, lane by lane, until gather() adds it to the numbers above: m v_i^2 and m v*^2, dt f . v_i
-    /// and dt f . v*, dt g . (v_i + v*) m and dt g m.
+    /// What NodeEquations sum, lane by lane, until gather() adds it to the numbers above: m v_i^2 and m v*^2, dt f .
+    /// v_i and dt f . v*, dt g . (v_i + v*) m and dt g m.
     Record kinetic{}, work{}, gravity{}, weight{};
 
     template <int dim>
@@ -267,15 +267,15 @@ class NodeEquations
     double dt_, inverseDt_, smallestMass_;
 };
 
-/// A row whose nodes feel nothing but forces and gravity, in one go.
-template <int dim>
-void solveFreeRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
+/// A row whose nodes feel nothing but forces and gravity, in one go; projected(i): (m, p, f) of node i.
+template <int dim, class Projected>
+void solveFreeRow(NodeRow<dim>& row, const NodeEquations<dim>& equations, Projected&& projected)
 {
     typename NodeEquations<dim>::Books books;
     for (Index i = row.begin; i < row.end; ++i)
     {
-        const Record projected = row.node[i], r = equations.begin(projected);
-        books.add(projected, r, row.smallestMass);
+        const Record before = projected(i), r = equations.begin(before);
+        books.add(before, r, row.smallestMass);
         row.node[i] = equations.end(r);
     }
     books.close(*row.sums, equations);
@@ -327,5 +327,28 @@ void endRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
             }
     for (Index i = row.begin; i < row.end; ++i)
         row.node[i] = equations.end(row.node[i]);
+}
+
+/// w = p/m in the lanes of a, of a momentum projected anew: (m, p).
+template <int dim>
+MPM_INLINE void setStrainVelocity(const NodeRow<dim>& row, Index i, const HalfRecord& momentum)
+{
+    using Lanes = NodeLanes<dim>;
+    Record& r = row.node[i];
+    const HalfRecord w = (row.carries(i) ? 1 / r[0] : 0.0) * momentum;
+    r = select(Lanes::trial(), Lanes::toTrial(join(w, w)), r);
+}
+
+/// (v_i, u) -> (u, v_i), the lanes as a second projection leaves them.
+template <int dim>
+void swapTrial(NodeRow<dim>& row)
+{
+    for (Index i = row.begin; i < row.end; ++i)
+        for (int a = 0; a < dim; ++a)
+        {
+            const double velocity = row.node[i][row.velocity + a]; // no std::swap: clang has no references to lanes
+            row.node[i][row.velocity + a] = row.node[i][row.trial + a];
+            row.node[i][row.trial + a] = velocity;
+        }
 }
 } // namespace mpm::nodal

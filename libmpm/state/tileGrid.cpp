@@ -90,6 +90,7 @@ void TileGrid::findTiles(const Particles& particles, int below, int above)
             tile.window.lo[a] = low[a] - below - margin;
             tile.window.n[a] = high[a] + above + margin - tile.window.lo[a] + 1;
         }
+        tile.reach = tile.window;
         tile.start = records;
         records += std::size_t(tile.window.size());
         largestWindow_ = std::max(largestWindow_, tile.window.size());

@@ -76,7 +76,7 @@ void ExplicitStepper<dim, Shape>::strainTogether(bool secondProjection)
     {
         meetBodies();
         forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
-            swapTrial(row);
+            nodal::swapTrial(row);
             if (prescribed(row.body))
                 contact_->followDrive(row);
         });

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "stepping/actorWork.ipp"
 #include "stepping/books.ipp"
 #include "stepping/bulkViscosity.ipp"
 #include "stepping/chunkWork.ipp"

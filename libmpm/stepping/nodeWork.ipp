@@ -1,6 +1,7 @@
 // The work of ExplicitStepper on nodes: the equations of motion, walls, and the velocities strains are taken from.
 #pragma once
 #include "base/clock.hpp"
+#include "nodal/gravity.hpp"
 #include "stepping/explicitStepper.hpp"
 
 #include <algorithm>
@@ -80,106 +81,19 @@ void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state
         row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
 
-/// Where moving walls and bodies are in the coming step, and how fast.
+/// (m, p, f) summed over windows, then solved at once.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::placeActors(double dt)
+void ExplicitStepper<dim, Shape>::solveFreeRow(nodal::NodeRow<dim>& row, const state::Block& block,
+                                               const Equations& equations)
 {
-    for (auto& wall : walls_)
-        if (wall.wall().motion)
-            wall.place(state_.time, dt, state_.grid);
-    for (auto& body : bodies_)
-        body.place(state_.time, dt, state_.grid);
-    for (auto& plane : absorbing_)
-        plane.place(state_.time, dt);
-    actorSums_.assign(grid_.blocks().size() * std::size_t(actors_), {});
-    heldRows_.resize(bodies_.empty() ? 0 : grid_.blocks().size());
-    for (auto& rows : heldRows_)
-        rows.clear();
-}
-
-/// What each of them met, summed over blocks in their order.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::reportActors(double dt)
-{
-    report_.actors.assign(std::size_t(actors_), {});
-    std::vector<nodal::ActorSums> sums(std::size_t(actors_), nodal::ActorSums{});
-    for (std::size_t n = 0; n < actorSums_.size(); ++n)
-        sums[n % std::size_t(actors_)] += actorSums_[n];
-    const auto finish = [&](ActorReport& report, const nodal::ActorSums& sum) {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-            report.force[a] = -sum.impulse[a] / kick_;
-            report.torque[a] = -sum.moment[a] / kick_;
-        }
-        report.contacts = sum.contacts;
-    };
-    std::size_t n = 0;
-    for (const auto& wall : walls_)
-        if (wall.wall().motion)
-        {
-            auto& report = report_.actors[n];
-            report.name = wall.wall().name;
-            report.position = wall.wall().motion->displacement(state_.time + dt);
-            report.velocity = wall.velocity();
-            finish(report, sums[n++]);
-        }
-    for (auto& contact : bodies_)
-    {
-        auto& report = report_.actors[n];
-        auto& body = contact.body();
-        report.name = contact.name();
-        report.position = contact.positionAt(state_.time + dt);
-        if (const auto* rigid = contact.rigid())
-        {
-            report.velocity = rigid->twist().velocity;
-            report.angularVelocity = rigid->twist().angularVelocity;
-        }
-        state_.ledger.bodyContacts += sums[n].contacts;
-        body.impulses = std::move(sums[n].impulses);
-        finish(report, sums[n++]);
-        body.force = report.force;
-        body.torque = report.torque;
-    }
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
-{
-    for (const auto& wall : walls_)
-        wall.push(row);
-    for (const auto& body : bodies_)
-        body.push(row);
-    for (const auto& wall : walls_)
-        wall.rub(row);
-    for (const auto& body : bodies_)
-        body.rub(row);
-    if (wallsMove_ || !bodies_.empty())
-        for (const auto& wall : walls_)
-            wall.pushAgain(row);
-}
-
-template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::driven() const
-{
-    return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
-}
-
-/// Do the row's nodes feel nothing but forces and gravity?
-template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::free(const nodal::NodeRow<dim>& row, const state::Block& block) const
-{
-    if (!effects_.empty() || !bodies_.empty() || !absorbing_.empty() || scene_.localDamping || shared(block) ||
-        prescribed(row.body))
-        return false;
-    for (const auto& wall : walls_)
-        if (wall.meets(row))
-            return false;
-    return true;
+    Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
+    sumWindows(row, block, sum);
+    nodal::solveFreeRow(row, equations, [&](Index i) { return transfer::finishNode<dim>(sum[i - row.begin]); });
 }
 
 /// Those of a step of dt at nodes that are free to move.
 template <int dim, class Shape>
-nodal::NodeEquations<dim> ExplicitStepper<dim, Shape>::equations(double dt) const
+typename ExplicitStepper<dim, Shape>::Equations ExplicitStepper<dim, Shape>::equations(double dt) const
 {
     Vector3 g{};
     if (scene_.gravity)
@@ -189,7 +103,7 @@ nodal::NodeEquations<dim> ExplicitStepper<dim, Shape>::equations(double dt) cons
 
 /// (m, p, f) -> (v_i, u) by forces, body effects and walls.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations)
+void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row, const Equations& equations)
 {
     nodal::beginRow(row, equations);
     if (prescribed(row.body))
@@ -206,7 +120,7 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row, const nodal
 
 /// (v_i, u) -> (v*, a); books what was done.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row, const nodal::NodeEquations<dim>& equations)
+void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row, const Equations& equations)
 {
     if (prescribed(row.body))
     {
@@ -276,15 +190,20 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         for (auto& surface : carriers_)
             surface.scatter(state_.grid, grid_, smallestMass_);
     }
+    const bool plain =
+        !loaded && effects_.empty() && bodies_.empty() && absorbing_.empty() && !scene_.localDamping.has_value();
+    const auto feelsWall = [&](const auto& row) {
+        return std::any_of(walls_.begin(), walls_.end(), [&](const auto& wall) { return wall.meets(row); });
+    };
     const auto equations = this->equations(kick_);
     forEachRow(
         blocks,
         [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            row.dt = kick_;
+            if (plain && !shared(block) && !prescribed(row.body) && !feelsWall(row))
+                return solveFreeRow(row, block, equations);
             if (!loaded)
                 sumNodes<transfer::Forces>(row, block);
-            row.dt = kick_;
-            if (free(row, block))
-                return nodal::solveFreeRow(row, equations);
             solveRow(row, equations);
             if (shared(block))
                 keepRow(row, block);
@@ -355,13 +274,13 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         {
             sumNodes<transfer::Momentum>(row, block);
             for (Index i = row.begin; i < row.end; ++i)
-                setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
+                nodal::setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
         }
         else
         {
             foreseeContact(row, block, equations);
             if (!shared(block))
-                swapTrial(row);
+                nodal::swapTrial(row);
         }
         if (prescribed(block.body) && (secondProjection || !shared(block)))
             contact_->followDrive(row);
@@ -383,22 +302,13 @@ void ExplicitStepper<dim, Shape>::projectAgainToRow(const nodal::NodeRow<dim>& r
     HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
     sumWindows(row, block, sum);
     for (Index i = row.begin; i < row.end; ++i)
-        setStrainVelocity(row, i, sum[i - row.begin]);
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum)
-{
-    Record& r = row.node[i];
-    const double inverse = row.carries(i) ? 1 / r[0] : 0;
-    const HalfRecord w = inverse * momentum;
-    r = select(nodal::NodeLanes<dim>::trial(), nodal::NodeLanes<dim>::toTrial(join(w, w)), r);
+        nodal::setStrainVelocity(row, i, sum[i - row.begin]);
 }
 
 /// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block,
-                                                 const nodal::NodeEquations<dim>& equations)
+                                                 const Equations& equations)
 {
     sumNodes<transfer::Forces>(row, block);
     nodal::NodeSums unbooked;
@@ -407,18 +317,5 @@ void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const
     row.actors = nullptr;
     solveRow(row, equations);
     row.sums = booked;
-}
-
-/// (v_i, u) -> (u, v_i), the lanes as a second projection leaves them.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::swapTrial(nodal::NodeRow<dim>& row) const
-{
-    for (Index i = row.begin; i < row.end; ++i)
-        for (int a = 0; a < dim; ++a)
-        {
-            const double velocity = row.node[i][row.velocity + a]; // no std::swap: clang has no references to lanes
-            row.node[i][row.velocity + a] = row.node[i][row.trial + a];
-            row.node[i][row.trial + a] = velocity;
-        }
 }
 } // namespace mpm::stepping
