@@ -7,58 +7,19 @@
 ///                                                // t = 0; absent or duration 0: all of it from the start
 ///
 /// A step takes the mean of the ramp over the step, from its closed integral.
-/// Work sum dt m_i g . (v_i + v*)/2 (METHOD, Energy) is booked after the walls, so that it is the work gravity does on
-/// the motion that happens. Verified in tests/unit/stepper.cpp (free fall) and by the self-weight column.
+/// It is part of the equations of a node (nodal/nodeRow.hpp); its work sum dt m_i g . (v_i + v*)/2 (METHOD, Energy) is
+/// booked after the walls, so that it is the work gravity does on the motion that happens. Verified in
+/// tests/unit/stepper.cpp (free fall) and by the self-weight column.
 #include "nodal/boundaries.hpp"
-#include "nodal/nodeRow.hpp"
 
 namespace mpm::nodal
 {
-template <int dim>
-class Gravity : public NodeEffect<dim>
+/// g of a step of dt from `time` on.
+inline Vector3 meanGravity(const Vector3& g, const std::optional<GravityRamp>& ramp, double time, double dt)
 {
-  public:
-    explicit Gravity(const Vector3& g, const std::optional<GravityRamp>& ramp = {}) : g_(g), ramp_(ramp) {}
-
-    void apply(NodeRow<dim>& row) const override
-    {
-        Record change{};
-        const Vector3 g = now(row);
-        for (int a = 0; a < dim; ++a)
-            change[row.trial + a] = row.dt * g[a];
-        for (Index i = row.begin; i < row.end; ++i)
-            row.node[i] += row.carries(i) ? change : Record{};
-    }
-
-    void book(NodeRow<dim>& row) const override
-    {
-        double mass = 0;
-        Record momentum{};
-        for (Index i = row.begin; i < row.end; ++i)
-        {
-            const double m = row.carries(i) ? row.node[i][0] : 0;
-            mass += m;
-            momentum += m * row.node[i];
-        }
-        const Vector3 g = now(row);
-        for (int a = 0; a < dim; ++a)
-        {
-            const double both = momentum[row.velocity + a] + momentum[row.trial + a];
-            row.sums->gravityWork += 0.5 * row.dt * g[a] * both;
-            row.sums->gravityImpulse[a] += row.dt * g[a] * mass;
-        }
-    }
-
-  private:
-    Vector3 now(const NodeRow<dim>& row) const
-    {
-        if (!ramp_)
-            return g_;
-        const double factor = ramp_->mean(row.time, row.dt);
-        return {factor * g_[0], factor * g_[1], factor * g_[2]};
-    }
-
-    Vector3 g_;
-    std::optional<GravityRamp> ramp_;
-};
+    if (!ramp)
+        return g;
+    const double factor = ramp->mean(time, dt);
+    return {factor * g[0], factor * g[1], factor * g[2]};
+}
 } // namespace mpm::nodal

@@ -2,7 +2,7 @@
 /// One row of nodes (constant j, k) while the nodal equations are solved, METHOD Eqs. 1-3 and Walls.
 ///
 /// Before: record lanes hold mass, momentum, force. The row turns them into velocity before (v_i) and trial velocity
-/// u = v_i + dt f/m; body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
+/// u = v_i + dt (f/m + g); body effects, then walls change u; at the end u is v* and the acceleration (v* - v_i)/dt.
 #include "base/record.hpp"
 #include "base/types.hpp"
 #include "nodal/contactBody.hpp"
@@ -57,6 +57,25 @@ struct NodeSums
     double lightest = std::numeric_limits<double>::infinity(); ///< smallest mass of a node that carries any [kg]
     Vector3 gravityImpulse{}, wallImpulse{}, dampingImpulse{}; ///< [N s]
     Vector3 restImpulse{};                                     ///< of what sleeps (stepping/rest.ipp) [N s]
+    /// What NodeEquations sum, lane by lane, until gather() adds it to the numbers above: m v_i^2 and m v*^2, dt f .
+    /// v_i and dt f . v*, dt g . (v_i + v*) m and dt g m.
+    Record kinetic{}, work{}, gravity{}, weight{};
+
+    template <int dim>
+    void gather()
+    {
+        for (int a = 0; a < dim; ++a)
+        {
+            const int before = 1 + a, after = 1 + dim + a;
+            kineticBefore += 0.5 * kinetic[before];
+            kineticAfter += 0.5 * kinetic[after];
+            forceWorkBefore += work[before];
+            forceWork += work[after];
+            gravityWork += 0.5 * gravity[after];
+            gravityImpulse[std::size_t(a)] += weight[after];
+        }
+        kinetic = work = gravity = weight = Record{};
+    }
 
     NodeSums& operator+=(const NodeSums& o)
     {
@@ -82,6 +101,10 @@ struct NodeSums
             dampingImpulse[a] += o.dampingImpulse[a];
             restImpulse[a] += o.restImpulse[a];
         }
+        kinetic += o.kinetic;
+        work += o.work;
+        gravity += o.gravity;
+        weight += o.weight;
         return *this;
     }
 };
@@ -180,45 +203,101 @@ struct NodeLanes
     }
 };
 
-/// f -> u for a row; p -> v_i.
+/// The equations of a node over a step, for its record as a whole: (m, p, f) -> (m, v_i, u) -> (m, v*, a).
 template <int dim>
-void beginRow(NodeRow<dim>& row)
+class NodeEquations
 {
+  public:
+    NodeEquations(double dt, double smallestMass, const Vector3& gravity)
+        : dt_(dt), inverseDt_(1 / dt), smallestMass_(smallestMass)
+    {
+        for (int a = 0; a < dim; ++a)
+            gain_[1 + dim + a] = dt * gravity[std::size_t(a)];
+    }
+
+    /// p -> v_i, f -> u by forces and gravity; nothing moves where there is no mass.
+    MPM_INLINE Record begin(const Record& r) const
+    {
+        const double inverse = r[0] > smallestMass_ ? 1 / r[0] : 0.0;
+        const Record rates = r * inverse; // (1, v, f/m)
+        const Record gain = select(splat<Record>(inverse) > Record{}, gain_, Record{});
+        return select(Lanes::velocity(), rates,
+                      select(Lanes::trial(), Lanes::toTrial(rates) + (dt_ * rates + gain), r));
+    }
+
+    /// u -> v* and a.
+    MPM_INLINE Record end(const Record& r) const
+    {
+        const Record acceleration = inverseDt_ * (r - Lanes::toTrial(r));
+        return select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
+    }
+
+    /// What they sum up over a row.
+    class Books
+    {
+      public:
+        /// A node before, and once its u is final.
+        MPM_INLINE void add(const Record& projected, const Record& r, double smallestMass)
+        {
+            const Record momentum = r[0] * r;
+            mass_ += r;
+            momentum_ += momentum;
+            kinetic_ += momentum * r;
+            work_ += select(Lanes::velocity(), Lanes::toVelocity(projected), projected) * r;
+            lightest_ = r[0] > smallestMass ? std::min(lightest_, r[0]) : lightest_;
+        }
+
+        MPM_INLINE void close(NodeSums& sums, const NodeEquations& equations) const
+        {
+            sums.kinetic += kinetic_;
+            sums.work += equations.dt_ * work_;
+            sums.gravity += equations.gain_ * (momentum_ + Lanes::toTrial(momentum_));
+            sums.weight += mass_[0] * equations.gain_;
+            sums.lightest = std::min(sums.lightest, lightest_);
+        }
+
+      private:
+        Record mass_{}, momentum_{}, kinetic_{}, work_{};
+        double lightest_ = std::numeric_limits<double>::infinity();
+    };
+
+  private:
     using Lanes = NodeLanes<dim>;
-    row.projected->assign(row.node + row.begin, row.node + row.end);
+    Record gain_{};
+    double dt_, inverseDt_, smallestMass_;
+};
+
+/// A row whose nodes feel nothing but forces and gravity, in one go; projected(i): (m, p, f) of node i.
+template <int dim, class Projected>
+void solveFreeRow(NodeRow<dim>& row, const NodeEquations<dim>& equations, Projected&& projected)
+{
+    typename NodeEquations<dim>::Books books;
     for (Index i = row.begin; i < row.end; ++i)
     {
-        Record& r = row.node[i];
-        const Record rates = r * (row.carries(i) ? 1 / r[0] : 0.0); // (1, v, f/m)
-        const Record trial = Lanes::toTrial(rates) + row.dt * rates;
-        r = select(Lanes::velocity(), rates, select(Lanes::trial(), trial, r));
+        const Record before = projected(i), r = equations.begin(before);
+        books.add(before, r, row.smallestMass);
+        row.node[i] = equations.end(r);
     }
+    books.close(*row.sums, equations);
 }
 
-/// Books kinetic energies, wall work and the work of the projected forces, then (v_i, u) -> (v*, a).
+/// f -> u for a row; p -> v_i.
 template <int dim>
-void endRow(NodeRow<dim>& row, double inverseDt)
+void beginRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
 {
-    using Lanes = NodeLanes<dim>;
-    Record kinetic{}, work{}, before{};
-    double lightest = row.sums->lightest;
+    row.projected->assign(row.node + row.begin, row.node + row.end);
     for (Index i = row.begin; i < row.end; ++i)
-    {
-        Record& r = row.node[i];
-        kinetic += r[0] * (r * r);
-        const Record& projected = (*row.projected)[std::size_t(i - row.begin)];
-        work += projected * r;
-        before += Lanes::toVelocity(projected) * r;
-        lightest = row.carries(i) ? std::min(lightest, r[0]) : lightest;
-    }
-    for (int a = 0; a < dim; ++a)
-    {
-        row.sums->kineticBefore += 0.5 * kinetic[row.velocity + a];
-        row.sums->kineticAfter += 0.5 * kinetic[row.trial + a];
-        row.sums->forceWork += row.dt * work[row.trial + a];
-        row.sums->forceWorkBefore += row.dt * before[row.velocity + a];
-    }
-    row.sums->lightest = lightest;
+        row.node[i] = equations.begin(row.node[i]);
+}
+
+/// Books energies and work, that of walls too, then (v_i, u) -> (v*, a).
+template <int dim>
+void endRow(NodeRow<dim>& row, const NodeEquations<dim>& equations)
+{
+    typename NodeEquations<dim>::Books books;
+    for (Index i = row.begin; i < row.end; ++i)
+        books.add((*row.projected)[std::size_t(i - row.begin)], row.node[i], row.smallestMass);
+    books.close(*row.sums, equations);
     if (!row.walls->pushed.empty())
         for (Index i = row.begin; i < row.end; ++i)
             for (int a = 0; a < dim; ++a)
@@ -247,10 +326,29 @@ void endRow(NodeRow<dim>& row, double inverseDt)
                 row.sums->wallImpulse[std::size_t(a)] += impulse;
             }
     for (Index i = row.begin; i < row.end; ++i)
-    {
-        Record& r = row.node[i];
-        const Record acceleration = inverseDt * (r - Lanes::toTrial(r));
-        r = select(Lanes::velocity(), Lanes::toVelocity(r), select(Lanes::trial(), acceleration, r));
-    }
+        row.node[i] = equations.end(row.node[i]);
+}
+
+/// w = p/m in the lanes of a, of a momentum projected anew: (m, p).
+template <int dim>
+MPM_INLINE void setStrainVelocity(const NodeRow<dim>& row, Index i, const HalfRecord& momentum)
+{
+    using Lanes = NodeLanes<dim>;
+    Record& r = row.node[i];
+    const HalfRecord w = (row.carries(i) ? 1 / r[0] : 0.0) * momentum;
+    r = select(Lanes::trial(), Lanes::toTrial(join(w, w)), r);
+}
+
+/// (v_i, u) -> (u, v_i), the lanes as a second projection leaves them.
+template <int dim>
+void swapTrial(NodeRow<dim>& row)
+{
+    for (Index i = row.begin; i < row.end; ++i)
+        for (int a = 0; a < dim; ++a)
+        {
+            const double velocity = row.node[i][row.velocity + a]; // no std::swap: clang has no references to lanes
+            row.node[i][row.velocity + a] = row.node[i][row.trial + a];
+            row.node[i][row.trial + a] = velocity;
+        }
 }
 } // namespace mpm::nodal

@@ -38,17 +38,6 @@ void WallEffect<dim>::place(double time, double dt, const state::GridBox& grid)
     plane_ = wallPlane(wall_, grid, time);
 }
 
-template <int dim>
-std::pair<Index, Index> WallEffect<dim>::range(const NodeRow<dim>& row) const
-{
-    const auto behind = [&](Index index) { return wall_.side < 0 ? index <= plane_ : index >= plane_; };
-    if (wall_.axis > 0)
-        return behind(wall_.axis == 1 ? row.j : row.k) ? std::pair(row.begin, row.end) : std::pair(row.end, row.end);
-    if (wall_.side < 0)
-        return {row.begin, std::clamp(plane_ + 1, row.begin, row.end)};
-    return {std::clamp(plane_, row.begin, row.end), row.end};
-}
-
 /// Gives node i the wall's velocity along an axis.
 template <int dim>
 void WallEffect<dim>::take(NodeRow<dim>& row, Index i, int a) const

@@ -61,11 +61,27 @@ class WallEffect
     /// a step: if w decided anew, a wall that pushes would let go whenever w points away from it, strains would not
     /// follow v*, and a body that bounces off, or presses on the wall at rest, would gain energy in every swing.
     void follow(NodeRow<dim>& row) const;
+    /// Are there nodes of the row on the wall or behind it?
+    bool meets(const NodeRow<dim>& row) const
+    {
+        const auto [begin, end] = range(row);
+        return begin != end;
+    }
     const Wall& wall() const { return wall_; }
     const Vector3& velocity() const { return velocity_; }
 
   private:
-    std::pair<Index, Index> range(const NodeRow<dim>& row) const;
+    /// Nodes of the row on the wall or behind it.
+    std::pair<Index, Index> range(const NodeRow<dim>& row) const
+    {
+        const auto behind = [&](Index index) { return wall_.side < 0 ? index <= plane_ : index >= plane_; };
+        if (wall_.axis > 0)
+            return behind(wall_.axis == 1 ? row.j : row.k) ? std::pair(row.begin, row.end)
+                                                           : std::pair(row.end, row.end);
+        if (wall_.side < 0)
+            return {row.begin, std::clamp(plane_ + 1, row.begin, row.end)};
+        return {std::clamp(plane_, row.begin, row.end), row.end};
+    }
     void take(NodeRow<dim>& row, Index i, int axis) const;
     Wall wall_;
     int actor_;

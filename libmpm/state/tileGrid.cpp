@@ -126,6 +126,7 @@ bool TileGrid::findTiles(const Particles& particles, int below, int above)
         tile.count = Index(i - first);
         tile.body = body;
         tile.window = window;
+        tile.reach = window;
         tile.start = records;
         tile.resting = false;
         records += std::size_t(window.size());
@@ -202,7 +203,7 @@ void TileGrid::findBlocks()
             for (Index k = low[2]; k <= high[2]; ++k)
                 for (Index j = low[1]; j <= high[1]; ++j)
                     for (Index i = low[0]; i <= high[0]; ++i)
-                        overlaps.push_back({layout.boxKey({i, j, k}, tiles_[t].body), {Index(t), 0, move}});
+                        overlaps.push_back({layout.boxKey({i, j, k}, tiles_[t].body), {Index(t), 0, move, {}, 0}});
         }
     std::sort(overlaps.begin(), overlaps.end(), [](const Meeting& a, const Meeting& b) {
         return std::tie(a.key, a.overlap.tile, a.overlap.move) < std::tie(b.key, b.overlap.tile, b.overlap.move);
@@ -223,7 +224,9 @@ void TileGrid::findBlocks()
             Overlap overlap = overlaps[o].overlap;
             overlap.block = Index(blocks_.size());
             Tile& tile = tiles_[std::size_t(overlap.tile)];
-            const NodeBox both = whole.common(tile.window.moved(overlap.move));
+            const NodeBox window = tile.window.moved(overlap.move), both = whole.common(window);
+            overlap.nodes = both;
+            overlap.first = window.offset(both.lo[0], both.lo[1], both.lo[2]);
             for (int a = 0; a < 3; ++a)
             {
                 low[a] = block.tiles.empty() ? both.lo[a] : std::min(low[a], both.lo[a]);

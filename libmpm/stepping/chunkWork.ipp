@@ -33,24 +33,28 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         ws.gradients.resize(std::size_t(grid_.largestWindow()));
     }
     openTreatment(ws, tile, pass);
+    // Where no particle has a weight its gradient is zero too, but for shapes with kinks.
+    constexpr bool inReach = Narrow::nodes > 2 && !hasCorners;
     if (pass.velocity || pass.byStrainVelocity)
-        grid_.copyToWindow(tile, ws.values.data(), [](const Record& r) { return Values::pack(r); });
+        grid_.copyToWindow(
+            tile, ws.values.data(), [](const Record& r) { return Values::pack(r); }, 0, inReach);
     if (pass.filtered || pass.filter)
     {
         ws.filteredValues.resize(ws.values.size());
         grid_.copyToWindow(
-            tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer);
+            tile, ws.filteredValues.data(), [](const Record& r) { return Values::pack(r); }, filterLayer, inReach);
     }
     if ((pass.gathers && pass.gradientLane == 1) || (pass.velocity && pass.affine))
         grid_.copyToWindow(
             tile, ws.gradients.data(), [](const Record& r) { return transfer::GradientNode<dim, 1>::pack(r); },
-            movesFiltered() ? filterLayer : 0);
+            movesFiltered() ? filterLayer : 0, inReach);
     if (pass.gathers && pass.gradientLane != 1)
-        grid_.copyToWindow(tile, ws.gradients.data(),
-                           [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); });
+        grid_.copyToWindow(
+            tile, ws.gradients.data(), [](const Record& r) { return transfer::GradientNode<dim, 1 + dim>::pack(r); }, 0,
+            inReach);
     lap(ws, &PassTimes::toParticles);
     if (pass.reproject || pass.filter || pass.then == Project::momentum)
-        grid_.template clearWindow<HalfRecord>(tile);
+        grid_.template clearWindow<HalfRecord>(tile, pass.reproject);
     else if (pass.then == Project::forces)
         grid_.template clearWindow<Record>(tile);
     lap(ws, &PassTimes::toGrid);
@@ -63,6 +67,10 @@ void ExplicitStepper<dim, Shape>::passOverTile(Workspace& ws, const state::Tile&
         first += count;
     }
     ws.laneSums.addTo(ws.sums);
+    if (pass.then == Project::forces)
+        grid_.template findReach<Record>(tile);
+    else if (pass.then == Project::momentum)
+        grid_.template findReach<HalfRecord>(tile);
 }
 
 template <int dim, class Shape>

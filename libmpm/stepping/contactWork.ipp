@@ -42,6 +42,7 @@ void ExplicitStepper<dim, Shape>::keepRow(const nodal::NodeRow<dim>& row, const 
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::finishSharedRows()
 {
+    const auto equations = this->equations(kick_);
     forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         const std::size_t at = block.start + std::size_t(block.box.offset(row.begin, row.j, row.k));
         const auto from = kept_.projected.begin() + std::ptrdiff_t(at);
@@ -52,7 +53,7 @@ void ExplicitStepper<dim, Shape>::finishSharedRows()
             applyWalls(row);
         if (bounded() && !kept_.byWalls[at].pushed.empty())
             row.walls->add(kept_.byWalls[at]);
-        finishRow(row);
+        finishRow(row, equations);
     });
 }
 
@@ -75,7 +76,7 @@ void ExplicitStepper<dim, Shape>::strainTogether(bool secondProjection)
     {
         meetBodies();
         forEachRow(contact_->blocks(), [&](nodal::NodeRow<dim>& row, const state::Block&) {
-            swapTrial(row);
+            nodal::swapTrial(row);
             if (prescribed(row.body))
                 contact_->followDrive(row);
         });

@@ -10,7 +10,6 @@
 #include "nodal/bodyContact.hpp"
 #include "nodal/contact.hpp"
 #include "nodal/damping.hpp"
-#include "nodal/gravity.hpp"
 #include "nodal/localDamping.hpp"
 #include "nodal/traction.hpp"
 #include "nodal/wall.hpp"
@@ -46,6 +45,7 @@ class ExplicitStepper : public Stepper
     template <class S>
     using Weights = transfer::ChunkWeights<dim, S>;
     using Vectors = double[dim][lanes];
+    using Equations = nodal::NodeEquations<dim>;
     using Domain = typename Weights<Shape>::Domain;
     static constexpr bool hasCorners = requires { Shape::hasCorners; };
 
@@ -143,7 +143,6 @@ class ExplicitStepper : public Stepper
         bool timed = false;
     };
 
-    // passes
     void arrange();
     void buildTiles(bool look = false); ///< look: may tiles fall asleep?
     void project();
@@ -159,11 +158,11 @@ class ExplicitStepper : public Stepper
     void filterRow(Change&& change);
     void strainVelocities(double dt, bool secondProjection);
     void projectAgainToRow(const nodal::NodeRow<dim>& row, const state::Block& block);
-    static void setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum);
-    void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block);
-    void swapTrial(nodal::NodeRow<dim>& row) const;
-    void solveRow(nodal::NodeRow<dim>& row);
-    void finishRow(nodal::NodeRow<dim>& row);
+    void foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block, const Equations& equations);
+    Equations equations(double dt) const;
+    void solveFreeRow(nodal::NodeRow<dim>& row, const state::Block& block, const Equations& equations);
+    void solveRow(nodal::NodeRow<dim>& row, const Equations& equations);
+    void finishRow(nodal::NodeRow<dim>& row, const Equations& equations);
 
     // contact between bodies, in contactWork.ipp
     static nodal::ParticleReach particleReach();
@@ -316,8 +315,7 @@ class ExplicitStepper : public Stepper
     void placeActors(double dt);
     void reportActors(double dt);
     double actorSpeed() const;
-    /// Is anything prescribed that changes with time?
-    bool driven() const;
+    bool driven() const; ///< is anything prescribed that changes with time?
     bool touches() const { return !walls_.empty() || !bodies_.empty(); } ///< they decide on contact
     bool bounded() const { return touches() || !absorbing_.empty(); }
     void applyWalls(nodal::NodeRow<dim>& row) const;

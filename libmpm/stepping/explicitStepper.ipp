@@ -2,6 +2,7 @@
 #pragma once
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "stepping/actorWork.ipp"
 #include "stepping/books.ipp"
 #include "stepping/bulkViscosity.ipp"
 #include "stepping/chunkWork.ipp"
@@ -26,8 +27,6 @@ ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& s
     : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)),
       layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{})
 {
-    if (scene.gravity)
-        effects_.push_back(std::make_unique<nodal::Gravity<dim>>(*scene.gravity, scene.gravityRamp));
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
     if (scene.localDamping)

@@ -1,6 +1,7 @@
 // The work of ExplicitStepper on nodes: the equations of motion, walls, and the velocities strains are taken from.
 #pragma once
 #include "base/clock.hpp"
+#include "nodal/gravity.hpp"
 #include "stepping/explicitStepper.hpp"
 
 #include <algorithm>
@@ -80,95 +81,31 @@ void ExplicitStepper<dim, Shape>::sumNodes(nodal::NodeRow<dim>& row, const state
         row.node[i] = transfer::finishNode<dim>(sum[i - row.begin]);
 }
 
-/// Where moving walls and bodies are in the coming step, and how fast.
+/// (m, p, f) summed over windows, then solved at once.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::placeActors(double dt)
+void ExplicitStepper<dim, Shape>::solveFreeRow(nodal::NodeRow<dim>& row, const state::Block& block,
+                                               const Equations& equations)
 {
-    for (auto& wall : walls_)
-        if (wall.wall().motion)
-            wall.place(state_.time, dt, state_.grid);
-    for (auto& body : bodies_)
-        body.place(state_.time, dt, state_.grid);
-    for (auto& plane : absorbing_)
-        plane.place(state_.time, dt);
-    actorSums_.assign(grid_.blocks().size() * std::size_t(actors_), {});
-    heldRows_.resize(bodies_.empty() ? 0 : grid_.blocks().size());
-    for (auto& rows : heldRows_)
-        rows.clear();
+    Record sum[1 << state::TileLayout::bitsOf(dim)] = {};
+    sumWindows(row, block, sum);
+    nodal::solveFreeRow(row, equations, [&](Index i) { return transfer::finishNode<dim>(sum[i - row.begin]); });
 }
 
-/// What each of them met, summed over blocks in their order.
+/// Those of a step of dt at nodes that are free to move.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::reportActors(double dt)
+typename ExplicitStepper<dim, Shape>::Equations ExplicitStepper<dim, Shape>::equations(double dt) const
 {
-    report_.actors.assign(std::size_t(actors_), {});
-    std::vector<nodal::ActorSums> sums(std::size_t(actors_), nodal::ActorSums{});
-    for (std::size_t n = 0; n < actorSums_.size(); ++n)
-        sums[n % std::size_t(actors_)] += actorSums_[n];
-    const auto finish = [&](ActorReport& report, const nodal::ActorSums& sum) {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-            report.force[a] = -sum.impulse[a] / kick_;
-            report.torque[a] = -sum.moment[a] / kick_;
-        }
-        report.contacts = sum.contacts;
-    };
-    std::size_t n = 0;
-    for (const auto& wall : walls_)
-        if (wall.wall().motion)
-        {
-            auto& report = report_.actors[n];
-            report.name = wall.wall().name;
-            report.position = wall.wall().motion->displacement(state_.time + dt);
-            report.velocity = wall.velocity();
-            finish(report, sums[n++]);
-        }
-    for (auto& contact : bodies_)
-    {
-        auto& report = report_.actors[n];
-        auto& body = contact.body();
-        report.name = contact.name();
-        report.position = contact.positionAt(state_.time + dt);
-        if (const auto* rigid = contact.rigid())
-        {
-            report.velocity = rigid->twist().velocity;
-            report.angularVelocity = rigid->twist().angularVelocity;
-        }
-        state_.ledger.bodyContacts += sums[n].contacts;
-        body.impulses = std::move(sums[n].impulses);
-        finish(report, sums[n++]);
-        body.force = report.force;
-        body.torque = report.torque;
-    }
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::applyWalls(nodal::NodeRow<dim>& row) const
-{
-    for (const auto& wall : walls_)
-        wall.push(row);
-    for (const auto& body : bodies_)
-        body.push(row);
-    for (const auto& wall : walls_)
-        wall.rub(row);
-    for (const auto& body : bodies_)
-        body.rub(row);
-    if (wallsMove_ || !bodies_.empty())
-        for (const auto& wall : walls_)
-            wall.pushAgain(row);
-}
-
-template <int dim, class Shape>
-bool ExplicitStepper<dim, Shape>::driven() const
-{
-    return wallsMove_ || !bodies_.empty() || !absorbing_.empty() || scene_.gravityRamp.has_value();
+    Vector3 g{};
+    if (scene_.gravity)
+        g = nodal::meanGravity(*scene_.gravity, scene_.gravityRamp, state_.time, dt);
+    return {dt, smallestMass_, g};
 }
 
 /// (m, p, f) -> (v_i, u) by forces, body effects and walls.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
+void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row, const Equations& equations)
 {
-    nodal::beginRow(row);
+    nodal::beginRow(row, equations);
     if (prescribed(row.body))
         return contact_->drive(row, state_.grid);
     for (const auto& effect : effects_)
@@ -183,18 +120,18 @@ void ExplicitStepper<dim, Shape>::solveRow(nodal::NodeRow<dim>& row)
 
 /// (v_i, u) -> (v*, a); books what was done.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row)
+void ExplicitStepper<dim, Shape>::finishRow(nodal::NodeRow<dim>& row, const Equations& equations)
 {
     if (prescribed(row.body))
     {
         contact_->bookDrive(row);
-        return nodal::endRow(row, 1 / kick_);
+        return nodal::endRow<dim>(row, {kick_, smallestMass_, {}}); // no work of gravity
     }
     if (scene_.localDamping)
         localDamping_->apply(row);
     for (const auto& effect : effects_)
         effect->book(row);
-    nodal::endRow(row, 1 / kick_);
+    nodal::endRow(row, equations);
 }
 
 /// m a = f with body and boundary effects; books their work. Leaves v* and a at the nodes. Nodes of blocks that bodies
@@ -253,17 +190,25 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
         for (auto& surface : carriers_)
             surface.scatter(state_.grid, grid_, smallestMass_);
     }
+    const bool plain =
+        !loaded && effects_.empty() && bodies_.empty() && absorbing_.empty() && !scene_.localDamping.has_value();
+    const auto feelsWall = [&](const auto& row) {
+        return std::any_of(walls_.begin(), walls_.end(), [&](const auto& wall) { return wall.meets(row); });
+    };
+    const auto equations = this->equations(kick_);
     forEachRow(
         blocks,
         [&](nodal::NodeRow<dim>& row, const state::Block& block) {
+            row.dt = kick_;
+            if (plain && !shared(block) && !prescribed(row.body) && !feelsWall(row))
+                return solveFreeRow(row, block, equations);
             if (!loaded)
                 sumNodes<transfer::Forces>(row, block);
-            row.dt = kick_;
-            solveRow(row);
+            solveRow(row, equations);
             if (shared(block))
                 keepRow(row, block);
             else
-                finishRow(row);
+                finishRow(row, equations);
         },
         inPart_);
     nodal::NodeSums sums;
@@ -277,6 +222,7 @@ void ExplicitStepper<dim, Shape>::solveNodes(const std::vector<Index>& blocks)
             sums += block;
         bookContact(sums);
     }
+    sums.gather<dim>();
     auto& ledger = state_.ledger;
     work_.ofForcesBefore -= sums.forceWorkBefore;
     work_.ofForces -= sums.forceWork;
@@ -319,6 +265,7 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
     Clock clock(times_.nodal);
     if (secondProjection && !touches() && !contact_)
         return forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) { projectAgainToRow(row, block); });
+    const auto equations = this->equations(dt);
     forEachRow([&](nodal::NodeRow<dim>& row, const state::Block& block) {
         row.dt = dt;
         if (secondProjection)
@@ -327,13 +274,13 @@ void ExplicitStepper<dim, Shape>::strainVelocities(double dt, bool secondProject
         {
             sumNodes<transfer::Momentum>(row, block);
             for (Index i = row.begin; i < row.end; ++i)
-                setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
+                nodal::setStrainVelocity(row, i, shuffle<0, 1, 2, 3>(row.node[i], row.node[i]));
         }
         else
         {
-            foreseeContact(row, block);
+            foreseeContact(row, block, equations);
             if (!shared(block))
-                swapTrial(row);
+                nodal::swapTrial(row);
         }
         if (prescribed(block.body) && (secondProjection || !shared(block)))
             contact_->followDrive(row);
@@ -355,40 +302,20 @@ void ExplicitStepper<dim, Shape>::projectAgainToRow(const nodal::NodeRow<dim>& r
     HalfRecord sum[1 << state::TileLayout::bitsOf(dim)] = {};
     sumWindows(row, block, sum);
     for (Index i = row.begin; i < row.end; ++i)
-        setStrainVelocity(row, i, sum[i - row.begin]);
-}
-
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::setStrainVelocity(const nodal::NodeRow<dim>& row, Index i, const HalfRecord& momentum)
-{
-    const double inverse = row.carries(i) ? 1 / row.node[i][0] : 0;
-    for (int a = 0; a < dim; ++a)
-        row.node[i][1 + dim + a] = inverse * momentum[1 + a];
+        nodal::setStrainVelocity(row, i, sum[i - row.begin]);
 }
 
 /// USF takes strains before it knows the forces: contact is that of a trial step with the stress at hand.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block)
+void ExplicitStepper<dim, Shape>::foreseeContact(nodal::NodeRow<dim>& row, const state::Block& block,
+                                                 const Equations& equations)
 {
     sumNodes<transfer::Forces>(row, block);
     nodal::NodeSums unbooked;
     auto* const booked = row.sums;
     row.sums = &unbooked;
     row.actors = nullptr;
-    solveRow(row);
+    solveRow(row, equations);
     row.sums = booked;
-}
-
-/// (v_i, u) -> (u, v_i), the lanes as a second projection leaves them.
-template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::swapTrial(nodal::NodeRow<dim>& row) const
-{
-    for (Index i = row.begin; i < row.end; ++i)
-        for (int a = 0; a < dim; ++a)
-        {
-            const double velocity = row.node[i][row.velocity + a]; // no std::swap: clang has no references to lanes
-            row.node[i][row.velocity + a] = row.node[i][row.trial + a];
-            row.node[i][row.trial + a] = velocity;
-        }
 }
 } // namespace mpm::stepping

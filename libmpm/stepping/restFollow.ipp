@@ -137,14 +137,15 @@ void ExplicitStepper<dim, Shape>::kickSleepers(double dt)
         return;
     const double longer = double(scene_.sortInterval);
     kick_ = dt / longer;
+    const auto equations = this->equations(kick_);
     forEachRow(blocksOf(grid_, sleepers), [&](nodal::NodeRow<dim>& row, const state::Block& block) {
         sumNodes<transfer::Forces>(row, block);
         nodal::NodeSums unbooked;
         row.sums = &unbooked;
         row.actors = nullptr;
         row.dt = kick_;
-        solveRow(row);
-        finishRow(row);
+        solveRow(row, equations);
+        finishRow(row, equations);
     });
     for (auto& rows : heldRows_)
         rows.clear();

@@ -1,6 +1,7 @@
 // Tiles of particles and blocks of nodes: keys, windows, sums in the order of the tiles, nothing where nothing is.
 #include "state/tileGrid.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -101,6 +102,69 @@ TEST_CASE("blocks sum every window that reaches them, and windows read back what
     }
     CHECK(nodes.find(60, 10, 0) == nullptr);
     CHECK(nodes.find(-30, 500, 0) == nullptr);
+}
+
+TEST_CASE("beyond its reach a window is neither summed nor copied, and any record that is not zero widens the reach")
+{
+    const auto check = [](auto record, int dim) {
+        using R = decltype(record);
+        const state::GridBox grid{dim, {0, 0, 0}, 1, {60, 40, dim == 3 ? 40 : 1}};
+        const state::TileLayout layout(grid);
+        state::TileGrid nodes;
+        nodes.build(particlesAt(layout, {{3, 2, 0}, {30, 20, 0}, {37, 29, 0}}), layout, 0, 2);
+        for (const auto& tile : nodes.tiles())
+        {
+            nodes.clearWindow<R>(tile);
+            CHECK(tile.reach.n == tile.window.n);
+            const auto at = [&](Index i, Index j) -> R& {
+                return nodes.window<R>(tile)[tile.window.offset(tile.window.lo[0] + i, tile.window.lo[1] + j,
+                                                                tile.window.lo[2] + (dim == 3))];
+            };
+            at(1, 2)[3] = 1e-300; // no mass, but a force or momentum
+            at(tile.window.n[0] - 2, 1)[0] = 2;
+            nodes.findReach<R>(tile);
+            CHECK(tile.reach.lo[0] == tile.window.lo[0] + 1);
+            CHECK(tile.reach.n[0] == tile.window.n[0] - 2);
+            CHECK(tile.reach.lo[1] == tile.window.lo[1] + 1);
+            CHECK(tile.reach.n[1] == 2);
+            CHECK(tile.reach.n[2] == 1);
+            CHECK(tile.reach.lo[2] == tile.window.lo[2] + (dim == 3));
+        }
+        double summed = 0, held = 0;
+        Index visited = 0, reached = 0;
+        for (const auto& block : nodes.blocks())
+            for (Index k = block.box.lo[2]; k < block.box.lo[2] + block.box.n[2]; ++k)
+                for (Index j = block.box.lo[1]; j < block.box.lo[1] + block.box.n[1]; ++j)
+                    nodes.forEachWindow<R>(block, j, k, [&](Index i0, Index i1, const R* in) {
+                        visited += i1 - i0;
+                        for (Index i = i0; i < i1; ++i)
+                            summed += in[i - i0][0] + in[i - i0][3];
+                    });
+        for (const auto& block : nodes.blocks())
+            for (Index n = 0; n < block.box.size(); ++n)
+                nodes.nodes(block)[n] = splat<Record>(5);
+        for (const auto& tile : nodes.tiles())
+        {
+            reached += tile.reach.size();
+            held += 2 + 1e-300;
+            std::vector<double> part(std::size_t(tile.window.size()), -1), whole = part;
+            const auto first = [](const Record& r) { return r[0]; };
+            nodes.copyToWindow(tile, part.data(), first, 0, true);
+            nodes.copyToWindow(tile, whole.data(), first);
+            const Index copied = tile.window.n[0] * tile.reach.n[1] * tile.reach.n[2]; // whole rows
+            CHECK(std::count(part.begin(), part.end(), 5) == copied);
+            CHECK(std::count(part.begin(), part.end(), 0) == tile.window.size() - copied);
+            CHECK(std::count(whole.begin(), whole.end(), 5) == tile.window.size());
+            for (Index j = tile.reach.lo[1]; j < tile.reach.lo[1] + tile.reach.n[1]; ++j)
+                CHECK(part[std::size_t(tile.window.offset(tile.reach.lo[0], j, tile.reach.lo[2]))] == 5);
+        }
+        CHECK(visited == reached);
+        CHECK(summed == held);
+    };
+    check(Record{}, 2);
+    check(HalfRecord{}, 2);
+    check(Record{}, 3);
+    check(HalfRecord{}, 3);
 }
 
 TEST_CASE("a window leaves a cell for motion around the support of its particles")
