@@ -86,7 +86,7 @@ class Bootstrap(unittest.TestCase):
     def test_the_audit_needs_more(self):
         self.install_everything()
         _, out, _ = self.bootstrap("--audit", "--packages-only")
-        self.assertEqual(out, "Installing 3 packages: clang-14 libclang-rt-14-dev libomp-14-dev\n")
+        self.assertEqual(out, "Installing 4 packages: clang-14 libclang-rt-14-dev libomp-14-dev lld\n")
         self.calls()
         self.assertEqual(self.bootstrap("--audit", "--packages-only")[:2], (0, ""))
 
