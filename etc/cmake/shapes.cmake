@@ -18,9 +18,9 @@ function(mpm_shape_sources target template prefix)
             endif()
             if(MPM_SHAPES STREQUAL all OR name IN_LIST MPM_SHAPES)
                 target_sources(${target} PRIVATE ${file})
-                # Passes over particles are the same templates for every shape, and what shapes differ in is part of the
-                # tests shapes, cornerWeights and transfer: undefined behaviour is looked for in one of the kernels.
-                if(NOT name STREQUAL uGIMP)
+                # Passes over particles are the same templates for every shape: under sanitizers all are watched for
+                # addresses, those of uGIMP (and the tests chunk, cornerWeights and transfer) for undefined behaviour too.
+                if(prefix AND NOT name STREQUAL uGIMP) # step
                     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/${file} TARGET_DIRECTORY ${target} PROPERTIES
                         COMPILE_OPTIONS $<$<BOOL:${MPM_JOINED}>:-fno-sanitize=undefined>)
                 endif()
