@@ -8,18 +8,20 @@ namespace mpm::constitutive
 {
 namespace
 {
-bool allSmall(const double* L, int count, double dt)
+template <int dim>
+bool allSmall(const TensorLanes<dim>& L, double dt)
 {
     Record most{};
-    for (int i = 0; i < count; i += 8)
-    {
-        const Record x = load(L + i);
-        most = largerOf(select(x < Record{}, -x, x), most);
-    }
+    for (int k = 0; k < dim * dim; ++k)
+        for (int g = 0; g < lanes; g += 8)
+        {
+            const Record x = load(L[k] + g);
+            most = largerOf(select(x < Record{}, -x, x), most);
+        }
     double largest = 0;
     for (int l = 0; l < 8; ++l)
         largest = most[l] > largest ? most[l] : largest;
-    return dt * largest <= smallMotion;
+    return dt * largest <= smallMotion<dim>;
 }
 
 /// kernel(a, b) on registers of all lanes of two rows of columns, of which those of b change.
@@ -46,10 +48,10 @@ void toMidStepOfLanes(TakenOver where, double dt, double (&L)[n][lanes])
     sweep(L, L, [=](const Record(&)[n], Record(&m)[n]) { toMidStep(half, m); });
 }
 
-template <int n>
-void advanceLanes(const double (&L)[n][lanes], double dt, double (&F)[n][lanes])
+template <int dim, int n = dim * dim>
+void advanceLanes(const TensorLanes<dim>& L, double dt, TensorLanes<dim>& F)
 {
-    if (allSmall(L[0], n * lanes, dt))
+    if (allSmall<dim>(L, dt))
         sweep(L, F, [=](const Record(&l)[n], Record(&f)[n]) { advance<true>(dt, l, f); });
     else
         sweep(L, F, [=](const Record(&l)[n], Record(&f)[n]) { advance<false>(dt, l, f); });
@@ -58,11 +60,11 @@ void advanceLanes(const double (&L)[n][lanes], double dt, double (&F)[n][lanes])
 
 bool isSmallMotion(const TensorLanes<2>& L, double dt)
 {
-    return allSmall(L[0], 4 * lanes, dt);
+    return allSmall<2>(L, dt);
 }
 bool isSmallMotion(const TensorLanes<3>& L, double dt)
 {
-    return allSmall(L[0], 9 * lanes, dt);
+    return allSmall<3>(L, dt);
 }
 
 void toMidStep(TakenOver where, double dt, TensorLanes<2>& L)
@@ -76,11 +78,11 @@ void toMidStep(TakenOver where, double dt, TensorLanes<3>& L)
 
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F)
 {
-    advanceLanes(L, dt, F);
+    advanceLanes<2>(L, dt, F);
 }
 void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F)
 {
-    advanceLanes(L, dt, F);
+    advanceLanes<3>(L, dt, F);
 }
 
 void rotateStress(const TensorLanes<2>& L, double dt, StressLanes<2>& stress)

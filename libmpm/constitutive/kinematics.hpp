@@ -34,7 +34,7 @@ void toMidStep(TakenOver where, double dt, TensorLanes<3>& L);
 void advanceDeformation(const TensorLanes<2>& L, double dt, TensorLanes<2>& F);
 void advanceDeformation(const TensorLanes<3>& L, double dt, TensorLanes<3>& F);
 
-/// Is dt |L| <= 1e-3 in every component, where short series are exact to round-off?
+/// Is dt |L| in every component so small that short series are exact to round-off (smallMotion, motion.hpp)?
 bool isSmallMotion(const TensorLanes<2>& L, double dt);
 bool isSmallMotion(const TensorLanes<3>& L, double dt);
 

@@ -25,20 +25,20 @@ template <int nc>
 [[gnu::always_inline]] inline double plasticWork(const double (&start)[nc], const double (&trial)[nc],
                                                  const double (&end)[nc], double invTwoG, double invK)
 {
-    double middle[nc], lost[nc];
+    double twice[nc], lost[nc]; // twice the mid-step stress
     for (int k = 0; k < nc; ++k)
     {
-        middle[k] = 0.5 * (start[k] + end[k]);
+        twice[k] = start[k] + end[k];
         lost[k] = trial[k] - end[k];
     }
-    const double middleMean = (middle[0] + middle[1] + middle[2]) * (1.0 / 3);
+    const double twiceMean = (twice[0] + twice[1] + twice[2]) * (1.0 / 3);
     const double lostMean = (lost[0] + lost[1] + lost[2]) * (1.0 / 3);
-    double shear = 0;
+    double normal = 0, shear = 0;
     for (int k = 0; k < 3; ++k)
-        shear += (middle[k] - middleMean) * (lost[k] - lostMean);
+        normal += (twice[k] - twiceMean) * (lost[k] - lostMean);
     for (int k = 3; k < nc; ++k)
-        shear += 2 * middle[k] * lost[k];
-    return shear * invTwoG + middleMean * lostMean * invK;
+        shear += twice[k] * lost[k];
+    return (normal + 2 * shear) * (0.5 * invTwoG) + twiceMean * lostMean * (0.5 * invK);
 }
 
 /// Plane strain: the in-plane pair from mean and radius, sorted against zz; the way back keeps cos and sin of twice the

@@ -6,22 +6,48 @@
 /// Tensors are rows of components: L, F as xx xy (xz) yx yy ...; stress and strain as xx yy zz xy (yz zx).
 #include "base/record.hpp"
 
+#include <array>
+
 namespace mpm::constitutive
 {
 /// Largest |dt L| for which the short series below are exact to round-off.
-inline constexpr double smallMotion = 1e-3;
+template <int dim>
+inline constexpr double smallMotion = dim == 2 ? 2e-2 : 1e-3;
 /// det(I + dt L/2) below which a step deforms too much for its middle to mean anything.
 inline constexpr double leastChange = 0.5;
 
-/// e^s - 1 by its series to s^terms; with 13 terms 1e-16 for |s| <= 1/2, with 5 for |s| <= 3e-3.
-template <int terms, class R>
-MPM_INLINE R expMinusOne(const R& s)
+/// 1/(first!), 1/((first + step)!), ...
+template <int n>
+constexpr std::array<double, n> inverseFactorials(int first, int step)
 {
-    R sum = splat<R>(1);
+    std::array<double, n> c{};
+    double factorial = 1;
+    for (int k = 1, i = 0; i < n; ++k)
+    {
+        if (k - 1 == first + i * step)
+            c[std::size_t(i++)] = 1 / factorial;
+        factorial *= k;
+    }
+    return c;
+}
+
+/// 1/first! + x/(first + step)! + ... of n terms.
+template <int n, int first, int step, class R>
+MPM_INLINE R series(const R& x)
+{
+    constexpr std::array<double, n> c = inverseFactorials<n>(first, step);
+    R sum = splat<R>(c[n - 1]);
     MPM_UNROLL
-    for (int k = terms; k >= 2; --k)
-        sum = 1 + s * sum * (1.0 / k);
-    return s * sum;
+    for (int k = n - 2; k >= 0; --k)
+        sum = c[std::size_t(k)] + x * sum;
+    return sum;
+}
+
+/// e^s by its series to s^terms; with 13 terms to 1e-16 for |s| <= 1/2, with 7 for |s| <= 2e-2, with 5 for 3e-3.
+template <int terms, class R>
+MPM_INLINE R exponential(const R& s)
+{
+    return series<terms + 1, 0, 1>(s);
 }
 
 template <class R>
@@ -88,19 +114,14 @@ MPM_INLINE void toMidStep(double half, R (&L)[9])
 template <bool isSmall, class R>
 MPM_INLINE void advance(double dt, const R (&L)[4], R (&F)[4])
 {
-    constexpr int terms = isSmall ? 3 : 7;
+    constexpr int terms = isSmall ? 4 : 7;
     const R xx = dt * L[0], xy = dt * L[1], yx = dt * L[2], yy = dt * L[3];
     const R s = 0.5 * (xx + yy), d = 0.5 * (xx - yy);
     const R z = d * d + xy * yx;
-    R c = splat<R>(1), sh = splat<R>(1);
-    MPM_UNROLL
-    for (int k = terms; k >= 1; --k)
-    {
-        c = 1 + z * c * (1.0 / ((2 * k - 1) * (2 * k)));
-        sh = 1 + z * sh * (1.0 / ((2 * k) * (2 * k + 1)));
-    }
-    const R e = 1 + expMinusOne < isSmall ? 5 : 13 > (s);
-    const R a = e * (c + sh * d), b = e * sh * xy, g = e * sh * yx, h = e * (c - sh * d);
+    const R c = series<terms + 1, 0, 2>(z), sh = series<terms + 1, 1, 2>(z);
+    const R e = exponential < isSmall ? 7 : 13 > (s);
+    const R esh = e * sh, ec = e * c;
+    const R a = ec + esh * d, b = esh * xy, g = esh * yx, h = ec - esh * d;
     const R f0 = F[0], f1 = F[1], f2 = F[2], f3 = F[3];
     F[0] = a * f0 + b * f2;
     F[1] = a * f1 + b * f3;
@@ -171,7 +192,7 @@ MPM_INLINE void advance(double dt, const R (&L)[9], R (&F)[9])
     for (int k = 0; k < 9; ++k)
         a[k] = dt * L[k];
     exponential3<isSmall>(a, e);
-    const R volume = 1 + expMinusOne < isSmall ? 5 : 13 > (a[0] + a[4] + a[8]);
+    const R volume = exponential < isSmall ? 5 : 13 > (a[0] + a[4] + a[8]);
     const R factor = 1 + (volume / determinant(e) - 1) * (1.0 / 3);
     multiply3(e, F, f);
     MPM_UNROLL
@@ -179,26 +200,34 @@ MPM_INLINE void advance(double dt, const R (&L)[9], R (&F)[9])
         F[k] = factor * f[k];
 }
 
+/// 1/(1 + q^2) of half an angle's tangent q, by its series where q <= 1e-2.
+template <bool isSmall, class R>
+MPM_INLINE R overOnePlus(const R& qq)
+{
+    return isSmall ? 1 - qq * (1 - qq * (1 - qq * (1 - qq))) : 1 / (1 + qq);
+}
+
 /// sigma <- dR sigma dR^T.
-template <class R>
+template <bool isSmall = false, class R>
 MPM_INLINE void rotate(double dt, const R (&L)[4], R (&stress)[4])
 {
     const R q = 0.25 * dt * (L[2] - L[1]), qq = q * q;
-    const R over = 1 / (1 + qq);
-    const R c = (1 - qq) * over, s = 2 * q * over;
-    const R xx = stress[0], yy = stress[1], xy = stress[3];
-    const R cc = c * c, ss = s * s, cs = c * s;
-    stress[0] = cc * xx - 2 * cs * xy + ss * yy;
-    stress[1] = ss * xx + 2 * cs * xy + cc * yy;
-    stress[3] = cs * (xx - yy) + (cc - ss) * xy;
+    const R over = overOnePlus<isSmall>(qq);
+    const R s = (q + q) * over, c = (1 - qq) * over;      // of the angle
+    const R s2 = (s + s) * c, c2 = 1 - (s + s) * s;       // and of twice as much, by which the deviator turns
+    const R mean = 0.5 * (stress[0] + stress[1]), half = 0.5 * (stress[0] - stress[1]), xy = stress[3];
+    const R turned = c2 * half - s2 * xy;
+    stress[0] = mean + turned;
+    stress[1] = mean - turned;
+    stress[3] = s2 * half + c2 * xy;
 }
 
 /// Cayley: dR = I + 2/(1 + |q|^2) (Q + Q^2), Q = [q]x, q = dt omega/2, omega the axial vector of W.
-template <class R>
+template <bool isSmall = false, class R>
 MPM_INLINE void rotate(double dt, const R (&L)[9], R (&stress)[6])
 {
     const R q0 = 0.25 * dt * (L[7] - L[5]), q1 = 0.25 * dt * (L[2] - L[6]), q2 = 0.25 * dt * (L[3] - L[1]);
-    const R b = 2 / (1 + q0 * q0 + q1 * q1 + q2 * q2);
+    const R b = 2 * overOnePlus<isSmall>(q0 * q0 + q1 * q1 + q2 * q2);
     const R dR[9] = {1 - b * (q1 * q1 + q2 * q2), b * (q0 * q1 - q2),          b * (q0 * q2 + q1),
                      b * (q0 * q1 + q2),          1 - b * (q0 * q0 + q2 * q2), b * (q1 * q2 - q0),
                      b * (q0 * q2 - q1),          b * (q1 * q2 + q0),          1 - b * (q0 * q0 + q1 * q1)};

@@ -266,6 +266,13 @@ class ExplicitStepper : public Stepper
     bool splitsNow() const { return scene_.splitting && state_.step % scene_.splitting->interval == 0; }
     /// Is this the last step before a look at which particles are to be split?
     bool splitsNext() const { return scene_.splitting && (state_.step + 1) % scene_.splitting->interval == 0; }
+    /// Does the next step begin with a sort? A projection before it would be thrown away; where an axis is periodic, it
+    /// tells who is to be wrapped.
+    bool sortsNext() const
+    {
+        const auto& periodic = state_.grid.periodic;
+        return (state_.step + 1) % scene_.sortInterval == 0 && !periodic[0] && !periodic[1] && !periodic[2];
+    }
     bool longEdges(Workspace& ws, Index first, int count) const;
     void split(bool known);
     void updateStress(Workspace& ws, const state::Tile& tile, Index first, int count, double dt);

@@ -121,7 +121,11 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         }
         else
             particlePass(dt,
-                         {.velocity = true, .strain = true, .gradientLane = 1, .moves = true, .then = Project::forces});
+                         {.velocity = true,
+                          .strain = true,
+                          .gradientLane = 1,
+                          .moves = true,
+                          .then = sortsNext() ? Project::nothing : Project::forces});
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);
@@ -133,7 +137,8 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         solveNodes();
         filterVelocities();
         moveSurfaces(dt);
-        particlePass(dt, {.velocity = true, .moves = true, .then = firstProjection()});
+        particlePass(dt,
+                     {.velocity = true, .moves = true, .then = sortsNext() ? Project::nothing : firstProjection()});
         break;
     }
     bookStressWork(dt);
@@ -275,7 +280,7 @@ void ExplicitStepper<dim, Shape>::strainPass(double dt, int gradientLane, bool m
     particlePass(dt, {.strain = true,
                       .gradientLane = gradientLane,
                       .moves = moves,
-                      .then = conjugate() ? Project::nothing : Project::forces});
+                      .then = conjugate() || (moves && sortsNext()) ? Project::nothing : Project::forces});
 }
 
 template <int dim, class Shape>

@@ -70,8 +70,8 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
         constitutive::toMidStep(half, L);
         storeRow(c.L, g, L);
         constitutive::strainOf(dt, L, strain);
-        constitutive::rotate(0.5 * dt, L, strain); // from the middle of the step to its end
-        constitutive::rotate(dt, L, stress);
+        constitutive::rotate<isSmall>(0.5 * dt, L, strain); // from the middle of the step to its end
+        constitutive::rotate<isSmall>(dt, L, stress);
         storeRow(c.law.dStrain, g, strain);
         storeRow(c.law.stress, g, stress);
         const Record workTurned = constitutive::work(stress, strain);
@@ -123,7 +123,7 @@ template <int dim>
 void strainSweep(StrainLanes<dim>& chunk, const StrainColumns<dim>& columns, const StrainStep& step,
                  transfer::Prefetch& ahead)
 {
-    if (constitutive::isSmallMotion(chunk.L, 1.01 * step.dt)) // L over mid-step is larger by 0.1 % then
+    if (constitutive::isSmallMotion(chunk.L, 1.05 * step.dt)) // L over mid-step is larger by 4 % at most
         sweepStrain<true>(chunk, columns, step, ahead);
     else
         sweepStrain<false>(chunk, columns, step, ahead);
