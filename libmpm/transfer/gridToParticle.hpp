@@ -65,18 +65,49 @@ inline void storeColumns(HalfRecord (&r)[8], double* const (&out)[4], int g)
     }
 }
 
+/// Calls body.operator()<lane>() for four lanes one after another. Weights of four particles are loaded together and spread
+/// from lane to lane by shuffles: loaded one by one, those of a particle lie at the same place of as many cache lines,
+/// of which a core reads one a cycle.
+template <class Body>
+MPM_INLINE void forFourLanes(Body&& body)
+{
+    body.template operator()<0>();
+    body.template operator()<1>();
+    body.template operator()<2>();
+    body.template operator()<3>();
+}
+
+template <int n>
+MPM_INLINE void loadFour(const double (&weights)[n][lanes], int g, HalfRecord (&out)[n])
+{
+    MPM_UNROLL
+    for (int i = 0; i < n; ++i)
+        out[i] = loadAs<HalfRecord>(weights[i] + g);
+}
+
+/// Columns of four half records: out[k][g .. g + 4).
+MPM_INLINE void storeFour(HalfRecord (&r)[4], double* const (&out)[4], int g)
+{
+    transpose(r);
+    MPM_UNROLL
+    for (int k = 0; k < 4; ++k)
+        store(out[k] + g, r[k]);
+}
+
 template <class Shape, class Meanwhile>
 [[gnu::noinline]] void gatherValues(const ChunkWeights<2, Shape>& w, const HalfRecord* window,
                                     const state::NodeBox& box, Values<2>& out, Meanwhile&& meanwhile)
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0];
-    for (int g = 0; g < lanes; g += 8)
+    for (int g = 0; g < lanes; g += 4)
     {
-        meanwhile();
-        HalfRecord value[8];
-        for (int l = 0; l < 8; ++l)
-        {
+        if (g % 8 == 0)
+            meanwhile();
+        HalfRecord x[n], y[n], value[4];
+        loadFour(w.axis[0].N, g, x);
+        loadFour(w.axis[1].N, g, y);
+        forFourLanes([&]<int l>() __attribute__((always_inline)) {
             const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord sum{};
             MPM_UNROLL
@@ -85,13 +116,13 @@ template <class Shape, class Meanwhile>
                 HalfRecord along{};
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    along += splat<HalfRecord>(w.axis[0].N[i][g + l]) * row[i];
-                sum += splat<HalfRecord>(w.axis[1].N[j][g + l]) * along;
+                    along += shuffle<l, l, l, l>(x[i], x[i]) * row[i];
+                sum += shuffle<l, l, l, l>(y[j], y[j]) * along;
                 row += nx;
             }
             value[l] = sum;
-        }
-        storeColumns(value, {out.v[0], out.v[1], out.a[0], out.a[1]}, g);
+        });
+        storeFour(value, {out.v[0], out.v[1], out.a[0], out.a[1]}, g);
     }
 }
 
@@ -147,17 +178,21 @@ template <class Shape, class Meanwhile>
 {
     constexpr int n = Shape::nodes;
     const Index nx = box.n[0];
-    for (int g = 0; g < lanes; g += 8)
+    for (int g = 0; g < lanes; g += 4)
     {
-        meanwhile();
-        HalfRecord gradient[8];
-        for (int l = 0; l < 8; ++l)
-        {
+        if (g % 8 == 0)
+            meanwhile();
+        HalfRecord Nx[n], Gx[n], Ny[n], Gy[n], gradient[4];
+        loadFour(w.axis[0].N, g, Nx);
+        loadFour(w.axis[0].G, g, Gx);
+        loadFour(w.axis[1].N, g, Ny);
+        loadFour(w.axis[1].G, g, Gy);
+        forFourLanes([&]<int l>() __attribute__((always_inline)) {
             const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord x[n], sum{};
             MPM_UNROLL
             for (int i = 0; i < n; ++i)
-                x[i] = choose(HalfMask{-1, -1, 0, 0}, w.axis[0].G[i][g + l], w.axis[0].N[i][g + l]);
+                x[i] = shuffle<l, l, 4 + l, 4 + l>(Gx[i], Nx[i]);
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
@@ -165,12 +200,12 @@ template <class Shape, class Meanwhile>
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
                     along += x[i] * row[i];
-                sum += choose(HalfMask{-1, -1, 0, 0}, w.axis[1].N[j][g + l], w.axis[1].G[j][g + l]) * along;
+                sum += shuffle<l, l, 4 + l, 4 + l>(Ny[j], Gy[j]) * along;
                 row += nx;
             }
             gradient[l] = sum;
-        }
-        storeColumns(gradient, {L[0], L[2], L[1], L[3]}, g);
+        });
+        storeFour(gradient, {L[0], L[2], L[1], L[3]}, g);
     }
 }
 
