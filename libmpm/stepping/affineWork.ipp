@@ -10,7 +10,7 @@ template <class W>
 void ExplicitStepper<dim, Shape>::projectMomentum(Workspace& ws, const W& w, const state::Tile& tile, const Vectors& x,
                                                   Index first, int count, bool withAffine)
 {
-    projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, [&] { ws.ahead.some(); });
+    projectChunk(w, ws.momentum, count, grid_.template window<HalfRecord>(tile), tile.window, [] {});
     if (withAffine)
         projectAffine<HalfRecord>(ws, w, tile, x, first, count);
     lap(ws, &PassTimes::toGrid);
@@ -34,7 +34,7 @@ void ExplicitStepper<dim, Shape>::advanceAffine(Workspace& ws, const W& w, const
                                                 int count)
 {
     if (scene_.transfer == Transfer::TPIC)
-        gatherGradient(w, ws.gradients.data(), tile.window, ws.affine, [&] { ws.ahead.some(); });
+        gatherGradient(w, ws.gradients.data(), tile.window, ws.affine, [] {});
     else
         transfer::gatherAffine<dim>(w, ws.gradients.data(), ws.x, state_.grid, count, tile.window, ws.affine);
     for (int k = 0; k < dim * dim; ++k)

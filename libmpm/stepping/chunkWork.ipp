@@ -81,7 +81,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
     if (pass.prepares)
         return prepareOverChunk(ws, tile, first, count, pass);
     auto& p = state_.particles;
-    const auto prefetch = [&] { ws.ahead.some(); };
+    const auto prefetch = [&] { ws.ahead.some(2); };
     for (int a = 0; a < dim; ++a)
     {
         transfer::loadLanes(p.x[a].data() + first, count, ws.x[a]);
@@ -156,7 +156,7 @@ void ExplicitStepper<dim, Shape>::passOverChunk(Workspace& ws, const state::Tile
             if (pass.addsStress)
                 addStressOfForces(ws, tile, x, first, count, pass);
             ws.forces.build(ws.mass, ws.v, ws.volume, ws.law.stress);
-            projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, prefetch);
+            projectChunk(w, ws.forces, count, grid_.template window<Record>(tile), tile.window, [] {});
             if (pass.addsForce)
                 addForces(ws, w, tile, x, first, count, dt, pass);
             lap(ws, &PassTimes::toGrid);
