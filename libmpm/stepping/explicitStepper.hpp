@@ -16,14 +16,9 @@
 #include "stepping/sceneOf.hpp"
 #include "stepping/sortParticles.hpp"
 #include "stepping/stepper.hpp"
-#include "stepping/strainSweep.hpp"
+#include "stepping/workspace.hpp"
 #include "transfer/affine.hpp"
-#include "transfer/chunkColumns.hpp"
-#include "transfer/cornerWeights.hpp"
 #include "transfer/gridToParticle.hpp"
-#include "transfer/particleToGrid.hpp"
-#include "transfer/stressTransfer.hpp"
-#include "treatment/tensionGap.hpp"
 
 namespace mpm::stepping
 {
@@ -42,11 +37,8 @@ class ExplicitStepper : public Stepper
 
   private:
     using Narrow = typename Shape::Narrow;
-    template <class S>
-    using Weights = transfer::ChunkWeights<dim, S>;
-    using Vectors = double[dim][lanes];
+    using Vectors = typename stepping::Workspace<dim, Shape>::Vectors;
     using Equations = nodal::NodeEquations<dim>;
-    using Domain = typename Weights<Shape>::Domain;
     static constexpr bool hasCorners = requires { Shape::hasCorners; };
 
     static constexpr int filterLayer = 1; ///< of the nodes: what XPIC and FMPM filter; smoothed stress
@@ -111,37 +103,7 @@ class ExplicitStepper : public Stepper
     /// Does the step at hand relax stresses?
     bool relaxes() const;
 
-    /// One thread's chunk of particles and node windows.
-    struct Workspace : StrainLanes<dim>
-    {
-        AlignedVector<typename transfer::ValueNode<dim>::Type> values, filteredValues;
-        AlignedVector<typename transfer::GradientNode<dim, 1>::Type> gradients;
-        alignas(64) Vectors x, xNew, v;
-        alignas(64) Domain half;
-        alignas(64) constitutive::TensorLanes<dim> affine;
-        transfer::Values<dim> filtered;
-        std::vector<double> cells;             ///< means over cells, in the order of the window
-        AlignedVector<Record> stressNodes;     ///< smoothed stress at nodes
-        alignas(64) std::int32_t cell[lanes];  ///< each lane's cell in the window
-        constitutive::StressLanes<dim> smooth; ///< S sigma, or the correction
-        treatment::OpenGap gap;
-        alignas(64) double viscous[lanes], viscosity[lanes]; ///< normal stress of hourglass viscosity; eta
-        alignas(64) double bulkViscous[lanes];               ///< normal stress of bulk viscosity
-        alignas(64) double spread[lanes];                    ///< what an average adds to each normal rate of L
-        alignas(64) double mass[lanes], volume0[lanes];
-        alignas(64) double storedBefore[lanes], stored[lanes]; ///< W(F) of hyperelastic lanes
-        transfer::Values<dim> value;
-        Weights<Shape> wide;
-        Weights<Narrow> narrow;
-        transfer::ParticleRecords<dim, transfer::Momentum> momentum;
-        transfer::ParticleRecords<dim, transfer::Forces> forces;
-        transfer::ParticleRecords<dim, transfer::Stresses> stresses;
-        transfer::Prefetch ahead;
-        TileSums sums; ///< of the tile, with those of all lanes once it is done
-        PassTimes times;
-        double lapStart = 0;
-        bool timed = false;
-    };
+    using Workspace = stepping::Workspace<dim, Shape>;
 
     void arrange();
     void buildTiles(bool look = false); ///< look: may tiles fall asleep?
