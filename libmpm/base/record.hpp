@@ -74,6 +74,15 @@ MPM_INLINE T* opaque(T* address)
     return address;
 }
 
+/// The same number, in a register from here on: g++ would rather load it again for every use.
+template <class R>
+MPM_INLINE R inRegister(R r)
+{
+    if constexpr (!std::is_class_v<R>)
+        asm("" : "+v"(r));
+    return r;
+}
+
 /// Two halves of a record.
 MPM_INLINE Record join(const HalfRecord& low, const HalfRecord& high)
 {

@@ -126,6 +126,47 @@ template <class Shape, class Meanwhile>
     }
 }
 
+/// sum N_i r_i along an axis. As sum N = 1, of three nodes the middle one needs no product; the differences are taken
+/// where a core adds while it multiplies.
+template <int n, class R>
+MPM_INLINE R weighted(const R (&N)[n], const R (&r)[n])
+{
+    if constexpr (n == 3)
+        return r[1] - N[0] * (r[1] - r[0]) - N[2] * (r[1] - r[2]);
+    R sum{};
+    MPM_UNROLL
+    for (int i = 0; i < n; ++i)
+        sum += N[i] * r[i];
+    return sum;
+}
+
+/// sum G_i r_i along an axis, the same way: sum G = 0.
+template <int n, class R>
+MPM_INLINE R sloped(const R (&G)[n], const R (&r)[n])
+{
+    if constexpr (n == 3)
+        return -(G[0] * (r[1] - r[0])) - G[2] * (r[1] - r[2]);
+    return weighted<n, R>(G, r);
+}
+
+/// A row of nodes, the middle one of three for several uses.
+template <int n, class R>
+MPM_INLINE void loadNodes(const R* row, R (&r)[n])
+{
+    MPM_UNROLL
+    for (int i = 0; i < n; ++i)
+        r[i] = n == 3 && i == 1 ? inRegister(row[i]) : row[i];
+}
+
+/// The weights of one lane along an axis, each in all lanes of a register.
+template <int n, class R>
+MPM_INLINE void spread(const double (&from)[n][lanes], int lane, R (&to)[n])
+{
+    MPM_UNROLL
+    for (int i = 0; i < n; ++i)
+        to[i] = splat<R>(from[i][lane]);
+}
+
 template <class Shape, class Meanwhile>
 [[gnu::noinline]] void gatherValues(const ChunkWeights<3, Shape>& w, const Record* window, const state::NodeBox& box,
                                     Values<3>& out, Meanwhile&& meanwhile)
@@ -139,28 +180,27 @@ template <class Shape, class Meanwhile>
         for (int l = 0; l < 8; ++l)
         {
             const Record* layer = opaque(window + w.offset[g + l]);
-            Record x[n], sum{};
+            Record x[n], y[n], z[n], inLayer[n];
+            spread(w.axis[0].N, g + l, x);
+            spread(w.axis[1].N, g + l, y);
+            spread(w.axis[2].N, g + l, z);
             MPM_UNROLL
-            for (int i = 0; i < n; ++i)
-                x[i] = splat<Record>(w.axis[0].N[i][g + l]);
             for (int k = 0; k < n; ++k)
             {
                 const Record* row = layer;
-                Record inLayer{};
+                Record along[n];
                 MPM_UNROLL
                 for (int j = 0; j < n; ++j)
                 {
-                    Record along{};
-                    MPM_UNROLL
-                    for (int i = 0; i < n; ++i)
-                        along += x[i] * row[i];
-                    inLayer += splat<Record>(w.axis[1].N[j][g + l]) * along;
+                    Record r[n];
+                    loadNodes(row, r);
+                    along[j] = weighted(x, r);
                     row += nx;
                 }
-                sum += splat<Record>(w.axis[2].N[k][g + l]) * inLayer;
+                inLayer[k] = weighted(y, along);
                 layer = opaque(layer + nxy);
             }
-            value[l] = sum;
+            value[l] = weighted(z, inLayer);
         }
         transpose(value);
         for (int a = 0; a < 3; ++a)
@@ -223,42 +263,35 @@ template <class Shape, class Meanwhile>
         for (int l = 0; l < 8; ++l)
         {
             const HalfRecord* layer = opaque(window + w.offset[g + l]);
-            HalfRecord N[n], G[n], sumX{}, sumY{}, sumZ{};
+            HalfRecord N[3][n], G[3][n], layerX[n], layerY[n], layerZ[n];
             MPM_UNROLL
-            for (int i = 0; i < n; ++i)
+            for (int a = 0; a < 3; ++a)
             {
-                N[i] = splat<HalfRecord>(w.axis[0].N[i][g + l]);
-                G[i] = splat<HalfRecord>(w.axis[0].G[i][g + l]);
+                spread(w.axis[a].N, g + l, N[a]);
+                spread(w.axis[a].G, g + l, G[a]);
             }
+            MPM_UNROLL
             for (int k = 0; k < n; ++k)
             {
                 const HalfRecord* row = layer;
-                HalfRecord layerX{}, layerY{}, layerZ{};
+                HalfRecord along[n], slope[n];
                 MPM_UNROLL
                 for (int j = 0; j < n; ++j)
                 {
-                    HalfRecord along{}, slope{};
-                    MPM_UNROLL
-                    for (int i = 0; i < n; ++i)
-                    {
-                        along += N[i] * row[i];
-                        slope += G[i] * row[i];
-                    }
-                    const HalfRecord ny = splat<HalfRecord>(w.axis[1].N[j][g + l]);
-                    layerX += ny * slope;
-                    layerY += splat<HalfRecord>(w.axis[1].G[j][g + l]) * along;
-                    layerZ += ny * along;
+                    HalfRecord r[n];
+                    loadNodes(row, r);
+                    along[j] = weighted(N[0], r);
+                    slope[j] = sloped(G[0], r);
                     row += nx;
                 }
-                const HalfRecord nz = splat<HalfRecord>(w.axis[2].N[k][g + l]);
-                sumX += nz * layerX;
-                sumY += nz * layerY;
-                sumZ += splat<HalfRecord>(w.axis[2].G[k][g + l]) * layerZ;
+                layerX[k] = weighted(N[1], slope);
+                layerY[k] = sloped(G[1], along);
+                layerZ[k] = weighted(N[1], along);
                 layer = opaque(layer + nxy);
             }
-            dx[l] = sumX;
-            dy[l] = sumY;
-            dz[l] = sumZ;
+            dx[l] = weighted(N[2], layerX);
+            dy[l] = weighted(N[2], layerY);
+            dz[l] = sloped(G[2], layerZ);
         }
         storeColumns(dx, {L[0], L[3], L[6], unused}, g);
         storeColumns(dy, {L[1], L[4], L[7], unused}, g);

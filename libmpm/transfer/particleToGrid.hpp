@@ -180,6 +180,26 @@ inline void projectRun(const shape::AxisWeights<n> (&w)[2], const ParticleRecord
     addLayer<n>(sum, first, nx);
 }
 
+/// Sums over a layer of three nodes an axis are taken with the weights (N_0, 1, N_2) and (G_0, 0, G_2): sum N = 1 and
+/// sum G = 0 make the middle node's share of what is left over, once a run instead of once a particle. Not for other
+/// supports, whose inner nodes can weigh so little that nothing of them would be left.
+template <int n>
+inline constexpr int leftOver = n == 3 ? 1 : -1;
+
+template <int n, class R>
+MPM_INLINE void dealLeftOver(R (&sum)[n * n])
+{
+    if constexpr (n == 3)
+    {
+        MPM_UNROLL
+        for (int j = 0; j < 3; ++j)
+            sum[3 * j + 1] -= sum[3 * j] + sum[3 * j + 2];
+        MPM_UNROLL
+        for (int i = 0; i < 3; ++i)
+            sum[3 + i] -= sum[i] + sum[6 + i];
+    }
+}
+
 /// 3D, layer by layer so that the sums of a layer stay in registers.
 template <int n, class What>
 inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecords<3, What>& p, int l0, int l1,
@@ -196,12 +216,13 @@ inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecord
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
-                const Node row = splat<Node>(w[1].N[j][l]) * layer;
+                const Node row = j == leftOver<n> ? layer : splat<Node>(w[1].N[j][l]) * layer;
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
-                    sum[j * n + i] += splat<Node>(w[0].N[i][l]) * row;
+                    sum[j * n + i] += i == leftOver<n> ? row : splat<Node>(w[0].N[i][l]) * row;
             }
         }
+        dealLeftOver<n>(sum);
         addLayer<n>(sum, first + k * nxy, nx);
     }
 }
@@ -231,17 +252,20 @@ inline void projectRun(const shape::AxisWeights<n> (&w)[3], const ParticleRecord
             MPM_UNROLL
             for (int j = 0; j < n; ++j)
             {
+                const bool rest = j == leftOver<n>;
                 const HalfRecord ny = splat<HalfRecord>(w[1].N[j][l]);
-                const HalfRecord row = ny * momentum, slope = ny * alongX;
-                const HalfRecord plain = ny * alongZ + splat<HalfRecord>(w[1].G[j][l]) * alongY;
+                const HalfRecord row = rest ? momentum : ny * momentum, slope = rest ? alongX : ny * alongX;
+                const HalfRecord plain = rest ? alongZ : ny * alongZ + splat<HalfRecord>(w[1].G[j][l]) * alongY;
                 MPM_UNROLL
                 for (int i = 0; i < n; ++i)
                 {
-                    mp[j * n + i] += nxOf[i] * row;
-                    f[j * n + i] += nxOf[i] * plain + gxOf[i] * slope;
+                    mp[j * n + i] += i == leftOver<n> ? row : nxOf[i] * row;
+                    f[j * n + i] += i == leftOver<n> ? plain : nxOf[i] * plain + gxOf[i] * slope;
                 }
             }
         }
+        dealLeftOver<n>(mp);
+        dealLeftOver<n>(f);
         Record* row = opaque(first + k * nxy);
         MPM_UNROLL
         for (int j = 0; j < n; ++j)
