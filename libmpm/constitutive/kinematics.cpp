@@ -11,16 +11,18 @@ namespace
 template <int dim>
 bool allSmall(const TensorLanes<dim>& L, double dt)
 {
-    Record most{};
+    Record high{}, low{};
     for (int k = 0; k < dim * dim; ++k)
         for (int g = 0; g < lanes; g += 8)
         {
             const Record x = load(L[k] + g);
-            most = largerOf(select(x < Record{}, -x, x), most);
+            high = largerOf(x, high);
+            low = smallerOf(x, low);
         }
+    high = largerOf(-low, high);
     double largest = 0;
     for (int l = 0; l < 8; ++l)
-        largest = most[l] > largest ? most[l] : largest;
+        largest = high[l] > largest ? high[l] : largest;
     return dt * largest <= smallMotion<dim>;
 }
 
@@ -48,7 +50,7 @@ void toMidStepOfLanes(TakenOver where, double dt, double (&L)[n][lanes])
     sweep(L, L, [=](const Record(&)[n], Record(&m)[n]) { toMidStep(half, m); });
 }
 
-template <int dim, int n = dim * dim>
+template <int dim, int n = dim* dim>
 void advanceLanes(const TensorLanes<dim>& L, double dt, TensorLanes<dim>& F)
 {
     if (allSmall<dim>(L, dt))

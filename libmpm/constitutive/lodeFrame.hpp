@@ -9,22 +9,25 @@
 /// cos(2/3 atan u) and sin(2/3 atan u)/u in u^2 - 1/2 (Chebyshev interpolation, error 9e-17).
 ///
 /// Repeated principal values are clean: t'/|t'| is then any tensor or zero, and the b that multiplies it is no larger
-/// than the gap between the values. A zero deviator gives n = 0, theta = 60 deg and three equal values.
+/// than the gap between the values. A deviator of zero (up to 1e-100) gives n = 0, theta = 60 deg and three equal
+/// values.
 #include <cmath>
 
 namespace mpm::constitutive
 {
-/// p(v) = even(v^2) + v odd(v^2), two short chains instead of a long one.
+/// p(v) = p0(v^4) + v p1(v^4) + v^2 (p2(v^4) + v p3(v^4)), four short chains instead of a long one.
 [[gnu::always_inline]] inline double polynomial(const double (&c)[20], double v)
 {
-    const double w = v * v;
-    double even = c[18], odd = c[19];
-    for (int i = 16; i >= 0; i -= 2)
+    const double w = v * v, x = w * w;
+    double p0 = c[16], p1 = c[17], p2 = c[18], p3 = c[19];
+    for (int i = 12; i >= 0; i -= 4)
     {
-        even = even * w + c[i];
-        odd = odd * w + c[i + 1];
+        p0 = p0 * x + c[i];
+        p1 = p1 * x + c[i + 1];
+        p2 = p2 * x + c[i + 2];
+        p3 = p3 * x + c[i + 3];
     }
-    return even + v * odd;
+    return (p0 + v * p1) + w * (p2 + v * p3);
 }
 
 struct Angle
@@ -32,8 +35,8 @@ struct Angle
     double cosine, sine;
 };
 
-/// theta from cos 3theta and sin 3theta >= 0.
-[[gnu::always_inline]] inline Angle thirdAngle(double cos3, double sin3)
+/// theta from u = sin 3theta/(1 + |cos 3theta|) >= 0 and whether cos 3theta < 0.
+[[gnu::always_inline]] inline Angle thirdAngle(double u, bool mirrored)
 {
     constexpr double cosineOf[20] = {
         0.91699329835202015,    -0.12536299522034242,    0.059185543011939359,   -0.031575948729154903,
@@ -49,11 +52,9 @@ struct Angle
         5.261739804890608e-05,  -3.3612747992081992e-05, 4.4787920102689104e-05, -2.8846019592890903e-05};
     constexpr double halfSqrt3 = 0.86602540378443865;
 
-    const double u = sin3 / (1 + std::abs(cos3));
     const double v = u * u - 0.5;
     const double cosine = polynomial(cosineOf, v);
     const double sine = u * polynomial(sineOf, v);
-    const bool mirrored = cos3 < 0;
     Angle theta;
     theta.cosine = mirrored ? 0.5 * cosine + halfSqrt3 * sine : cosine;
     theta.sine = mirrored ? halfSqrt3 * cosine - 0.5 * sine : sine;
@@ -68,47 +69,50 @@ struct LodeFrame
     Angle theta;
 };
 
+/// a:b of symmetric tensors.
+[[gnu::always_inline]] inline double contract(const double (&a)[6], const double (&b)[6])
+{
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/// Works on the deviator s as it is, |s|^2 t' = dev(s s) - (dev(s s):s/|s|^2) s, and divides what follows from it by
+/// powers of |s|: roots and quotients take long, and few have to wait for one another then.
 [[gnu::always_inline]] inline LodeFrame lodeFrame(const double (&sigma)[6])
 {
     constexpr double sqrt6 = 2.4494897427831781;
     LodeFrame out;
     out.mean = (sigma[0] + sigma[1] + sigma[2]) * (1.0 / 3);
-    const double xx = sigma[0] - out.mean, yy = sigma[1] - out.mean, zz = sigma[2] - out.mean;
-    const double xy = sigma[3], yz = sigma[4], zx = sigma[5];
-    const double square = xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx);
+    const double s[6] = {sigma[0] - out.mean, sigma[1] - out.mean, sigma[2] - out.mean, sigma[3], sigma[4], sigma[5]};
+    const double square = contract(s, s);
     out.size = std::sqrt(square);
-    const double inverse = square > 0 ? 1 / out.size : 0;
-
-    double(&n)[6] = out.n;
-    n[0] = xx * inverse;
-    n[1] = yy * inverse;
-    n[2] = zz * inverse;
-    n[3] = xy * inverse;
-    n[4] = yz * inverse;
-    n[5] = zx * inverse;
+    const bool some = square > 1e-200; // the powers of |s| below stay within doubles
+    const double inverse = some ? 1 / out.size : 0, inverse2 = inverse * inverse;
 
     double t[6];
-    t[0] = n[0] * n[0] + n[3] * n[3] + n[5] * n[5];
-    t[1] = n[1] * n[1] + n[3] * n[3] + n[4] * n[4];
-    t[2] = n[2] * n[2] + n[4] * n[4] + n[5] * n[5];
-    t[3] = n[3] * (n[0] + n[1]) + n[4] * n[5];
-    t[4] = n[4] * (n[1] + n[2]) + n[3] * n[5];
-    t[5] = n[5] * (n[2] + n[0]) + n[3] * n[4];
-    const double third = (t[0] + t[1] + t[2]) * (1.0 / 3);
+    t[0] = s[0] * s[0] + s[3] * s[3] + s[5] * s[5];
+    t[1] = s[1] * s[1] + s[3] * s[3] + s[4] * s[4];
+    t[2] = s[2] * s[2] + s[4] * s[4] + s[5] * s[5];
+    t[3] = s[4] * s[5] - s[3] * s[2];
+    t[4] = s[3] * s[5] - s[4] * s[0];
+    t[5] = s[3] * s[4] - s[5] * s[1];
+    const double third = square * (1.0 / 3);
     t[0] -= third;
     t[1] -= third;
     t[2] -= third;
 
-    const double along = t[0] * n[0] + t[1] * n[1] + t[2] * n[2] + 2 * (t[3] * n[3] + t[4] * n[4] + t[5] * n[5]);
+    const double along = contract(t, s), share = some ? along / square : 0;
     for (int k = 0; k < 6; ++k)
-        t[k] -= along * n[k];
-    const double across2 = t[0] * t[0] + t[1] * t[1] + t[2] * t[2] + 2 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]);
-    const double across = std::sqrt(across2);
-    const double inverse2 = across2 > 0 ? 1 / across : 0;
+        t[k] -= share * s[k];
+    const double across2 = contract(t, t), across = std::sqrt(across2);
+    const double inverseAcross = across2 > 0 ? 1 / across : 0;
+    const double cos3 = sqrt6 * along * (inverse * inverse2);
+    const double sin3OverAcross = sqrt6 * inverse2;
     for (int k = 0; k < 6; ++k)
-        out.second[k] = t[k] * inverse2;
-
-    out.theta = thirdAngle(sqrt6 * along, sqrt6 * across);
+    {
+        out.n[k] = inverse * s[k];
+        out.second[k] = inverseAcross * t[k];
+    }
+    out.theta = thirdAngle(across * (sin3OverAcross / (1 + std::abs(cos3))), cos3 < 0);
     return out;
 }
 } // namespace mpm::constitutive

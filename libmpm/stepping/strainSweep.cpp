@@ -37,13 +37,14 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
                  transfer::Prefetch& ahead)
 {
     constexpr int nc = stressSize<dim>;
+    constexpr bool inOne = isSmall && dim == 3; // L over mid-step and its exponential from the same products
     const double dt = step.dt, half = step.takenOver == constitutive::TakenOver::start ? 0.5 * dt : -0.5 * dt;
     const Record lowest = splat<Record>(smallestVolumeRatio), highest = splat<Record>(largestVolumeRatio);
     auto within = lowest == lowest;
     Record smallest = c.laneSums.smallestJacobian, workBefore{};
     for (int g = 0; g < lanes; g += 8)
     {
-        ahead.some(2);
+        ahead.some(dim); // all columns of the next chunk, before its turn comes
         Record L[dim * dim], stress[nc], strain[nc];
         loadRow(c.L, g, L);
         const Record before = loadAnywhere(columns.volume + g);
@@ -67,7 +68,11 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
         }
         const Record energy =
             constitutive::elasticEnergy(stress, load(c.halfOverBulk + g), load(c.quarterOverShear + g));
-        constitutive::toMidStep(half, L);
+        Record change[dim * dim];
+        if constexpr (inOne)
+            constitutive::toMidStep(dt, half, L, change);
+        else
+            constitutive::toMidStep(half, L);
         storeRow(c.L, g, L);
         constitutive::strainOf(dt, L, strain);
         constitutive::rotate<isSmall>(0.5 * dt, L, strain); // from the middle of the step to its end
@@ -80,7 +85,14 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
         MPM_UNROLL
         for (int k = 0; k < dim * dim; ++k)
             F[k] = loadAnywhere(columns.F[k] + g);
-        constitutive::advance<isSmall>(dt, L, F);
+        if constexpr (inOne)
+        {
+            Record before[dim * dim];
+            std::copy_n(F, dim * dim, before);
+            constitutive::multiply3(change, before, F);
+        }
+        else
+            constitutive::advance<isSmall>(dt, L, F);
         MPM_UNROLL
         for (int k = 0; k < dim * dim; ++k)
             storeAnywhere(columns.F[k] + g, F[k]);
@@ -91,8 +103,8 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
         store(c.volumeBefore + g, before);
         store(c.volume + g, volume);
         storeAnywhere(columns.volume + g, volume);
-        store(c.missed + g, 0.5 * (energy * (volume - before) - before * workOfForces) +
-                                0.25 * ((before + volume) * workTurned));
+        store(c.missed + g,
+              0.5 * (energy * (volume - before) - before * workOfForces) + 0.25 * ((before + volume) * workTurned));
     }
     c.laneSums.smallestJacobian = smallest;
     c.laneSums.strainWorkBefore += workBefore;

@@ -2,6 +2,8 @@
 // stretch.
 #include "constitutive/kinematics.hpp"
 
+#include "constitutive/motion.hpp"
+
 #include <catch2/catch.hpp>
 #include <Eigen/Dense>
 #include <random>
@@ -120,6 +122,36 @@ TEST_CASE("F follows the exponential of the velocity gradient, its volume exactl
     checkExponential<2>(0.1);
     checkExponential<3>(0.1);
     checkExponential<2>(1);
+}
+
+TEST_CASE("small motion in 3D: its middle and its exponential to round-off, from either end of the step")
+{
+    const double dt = 0.5;
+    alignas(64) TensorLanes<3> L;
+    fill<3>(L, constitutive::smallMotion<3> / dt, 8, false);
+    for (const double half : {0.5 * dt, -0.5 * dt})
+        for (int l = 0; l < lanes; ++l)
+        {
+            const Matrix<3> whole = lane<3>(L, l), I = Matrix<3>::Identity();
+            const Matrix<3> middle = whole * (I + half * whole).inverse(), want = exponential<3>(dt * middle);
+            double m[9], change[9], F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+            for (int k = 0; k < 9; ++k)
+                m[k] = L[k][l];
+            constitutive::toMidStep(dt, half, m, change);
+            constitutive::advance<true>(dt, m, F);
+            for (int k = 0; k < 9; ++k)
+            {
+                CHECK(m[k] == Approx(middle(k / 3, k % 3)).epsilon(0).margin(2e-17));
+                CHECK(change[k] == Approx(want(k / 3, k % 3)).epsilon(0).margin(1e-15));
+                CHECK(F[k] == Approx(want(k / 3, k % 3)).epsilon(0).margin(1e-15));
+            }
+            CHECK(constitutive::determinant(change) == Approx(std::exp(dt * middle.trace())).epsilon(1e-15));
+            double exact[6] = {1, -2, 3, 0.5, -0.3, 2}, quick[6] = {1, -2, 3, 0.5, -0.3, 2};
+            constitutive::rotate<false>(dt, m, exact);
+            constitutive::rotate<true>(dt, m, quick);
+            for (int k = 0; k < 6; ++k)
+                CHECK(quick[k] == Approx(exact[k]).epsilon(0).margin(5e-15));
+        }
 }
 
 TEST_CASE("ten turns keep the volume")
