@@ -5,8 +5,8 @@
 
 namespace mpm::state
 {
-TileLayout::TileLayout(const GridBox& grid, std::vector<int> bodyOf)
-    : dim_(grid.dim), bits_(bitsOf(grid.dim)), bodyOf_(std::move(bodyOf))
+TileLayout::TileLayout(const GridBox& grid, std::vector<int> bodyOf, int bits)
+    : dim_(grid.dim), bits_(bits > 0 ? bits : bitsOf(grid.dim)), bodyOf_(std::move(bodyOf))
 {
     for (int a = 0; a < dim_; ++a)
     {

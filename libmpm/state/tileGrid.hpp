@@ -1,5 +1,5 @@
 #pragma once
-/// The nodes in use, and who adds to them. The lattice is cut into boxes of 2^bits cells a side (16 in 2D, 8 in 3D):
+/// The nodes in use, and who adds to them. The lattice is cut into boxes of 2^bits cells a side (32 in 2D, 8 in 3D; 16 in 2D with `rest`):
 ///     tile    the particles whose support starts in one box, contiguous in memory, and the window of nodes they may
 ///             reach; a tile sums into its own window
 ///     block   the nodes of one box that any window reaches; each sums the windows over it in the order of the tiles
@@ -33,7 +33,8 @@ class TileLayout
 {
   public:
     /// bodyOf: the body of each material; empty: all are one.
-    explicit TileLayout(const GridBox& grid, std::vector<int> bodyOf = {});
+    /// bits: of the cells a side of a tile, at most bitsOf(grid.dim).
+    explicit TileLayout(const GridBox& grid, std::vector<int> bodyOf = {}, int bits = 0);
 
     /// Key of a support that starts at lattice node `base`; nodes far outside the grid share the outermost tiles.
     Index key(const std::array<Index, 3>& base, int body = 0) const;
@@ -64,7 +65,8 @@ class TileLayout
     Index boxCount() const { return boxes_[0] * boxes_[1] * boxes_[2]; }
     std::array<Index, 3> firstNode(Index boxKey) const;
 
-    static constexpr int bitsOf(int dim) { return dim == 2 ? 4 : 3; }
+    /// Large tiles share fewer nodes; small ones tell apart better who sleeps (stepping/rest.hpp).
+    static constexpr int bitsOf(int dim, bool rests = false) { return dim == 2 ? (rests ? 4 : 5) : 3; }
     bool operator==(const TileLayout&) const = default;
 
   private:

@@ -25,7 +25,8 @@ namespace mpm::stepping
 template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
     : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)),
-      layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{})
+      layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{},
+              state::TileLayout::bitsOf(dim, scene.rest.has_value()))
 {
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
