@@ -44,7 +44,7 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
     Record smallest = c.laneSums.smallestJacobian, workBefore{};
     for (int g = 0; g < lanes; g += 8)
     {
-        ahead.some(dim); // all columns of the next chunk, before its turn comes
+        ahead.some(dim == 2 ? 2 : 4); // most columns of the next chunk, before its turn comes
         Record L[dim * dim], stress[nc], strain[nc];
         loadRow(c.L, g, L);
         const Record before = loadAnywhere(columns.volume + g);

@@ -65,9 +65,9 @@ inline void storeColumns(HalfRecord (&r)[8], double* const (&out)[4], int g)
     }
 }
 
-/// Calls body.operator()<lane>() for four lanes one after another. Weights of four particles are loaded together and spread
-/// from lane to lane by shuffles: loaded one by one, those of a particle lie at the same place of as many cache lines,
-/// of which a core reads one a cycle.
+/// Calls body.operator()<lane>() for four lanes one after another. Weights of four particles are loaded together and
+/// spread from lane to lane by shuffles: loaded one by one, those of a particle lie at the same place of as many cache
+/// lines, of which a core reads one a cycle.
 template <class Body>
 MPM_INLINE void forFourLanes(Body&& body)
 {
