@@ -1,5 +1,6 @@
 #pragma once
-/// The nodes in use, and who adds to them. The lattice is cut into boxes of 2^bits cells a side (32 in 2D, 8 in 3D; 16 in 2D with `rest`):
+/// The nodes in use, and who adds to them. The lattice is cut into boxes of 2^bits cells a side (32 in 2D, 16 in 3D;
+/// with `rest` 16 and 8):
 ///     tile    the particles whose support starts in one box, contiguous in memory, and the window of nodes they may
 ///             reach; a tile sums into its own window
 ///     block   the nodes of one box that any window reaches; each sums the windows over it in the order of the tiles
@@ -66,7 +67,7 @@ class TileLayout
     std::array<Index, 3> firstNode(Index boxKey) const;
 
     /// Large tiles share fewer nodes; small ones tell apart better who sleeps (stepping/rest.hpp).
-    static constexpr int bitsOf(int dim, bool rests = false) { return dim == 2 ? (rests ? 4 : 5) : 3; }
+    static constexpr int bitsOf(int dim, bool rests = false) { return dim == 2 ? (rests ? 4 : 5) : (rests ? 3 : 4); }
     bool operator==(const TileLayout&) const = default;
 
   private:
