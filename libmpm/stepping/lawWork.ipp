@@ -266,7 +266,8 @@ bool ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int cou
     return different == 0;
 }
 
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
+/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept, and copies
+/// of the last particle with it: sums look at all lanes.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk,
                                            bool oneMaterial) const
@@ -285,8 +286,8 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive:
             continue;
         constitutive::Chunk<dim> own = before;
         scene_.materials[std::size_t(m)].law->update(own);
-        for (int l = 0; l < count; ++l)
-            if (material[l] == m)
+        for (int l = 0; l < lanes; ++l)
+            if (material[std::min(l, count - 1)] == m)
             {
                 for (int k = 0; k < stressSize<dim>; ++k)
                     chunk.stress[k][l] = own.stress[k][l];

@@ -268,6 +268,29 @@ TEST_CASE("a mixed chunk gives every particle its own law")
     }
 }
 
+TEST_CASE("lanes without a particle tell nothing in a mixed chunk")
+{
+    // Two soils without cohesion that expand: all return to their apex and carry no stress, so none is stiff.
+    auto s = scenes::seedBlock({.corner = {1, 1, 0}, .n = {6, 6, 1}, .spacing = 0.25, .h = 0.5, .cells = {10, 10, 1}});
+    s.materials = {"one", "other"};
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+    {
+        s.particles.material[i] = std::int32_t(i % 2);
+        for (int a = 0; a < 2; ++a)
+            s.particles.v[a][i] = 10 * s.particles.x[a][i];
+    }
+    stepping::Scene scene;
+    for (const double friction : {42, 35})
+        scene.materials.push_back({"soil", 1000,
+                                   std::make_shared<constitutive::MohrCoulomb>(
+                                       constitutive::MohrCoulombParameters{{20e6, 0.42}, 0, friction, 0})});
+    scene.stressUpdate = StressUpdate::USF;
+    run(s, scene, "uGIMP", 1, 1e-4);
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        REQUIRE(s.particles.volume[i] > s.particles.volume0[i]);
+    CHECK(s.largestJacobian == 1);
+}
+
 TEST_CASE("particles that leave the grid or are no longer finite end the run by name")
 {
     auto s =
