@@ -5,7 +5,7 @@
 ///     bookSweep     the stress the law leaves, with its work and energy (energyBudget.hpp)
 /// Loops of their own for each of these spent twice the time on moving numbers between registers and cache.
 ///
-/// Compiled once per dimension. Covered by tests/unit/energyBudget.cpp and the scenes of tests/verification.
+/// Compiled once per dimension. Covered by tests/unit/strainSweep.cpp and the scenes of tests/verification.
 #include "base/record.hpp"
 #include "constitutive/law.hpp"
 #include "state/particles.hpp"
