@@ -190,9 +190,9 @@ void ExplicitStepper<dim, Shape>::bookKept(Workspace& ws, Index first, int count
                 if (mine(l))
                 {
                     ws.energy[l] = ws.stored[l] / ws.J[l];
-                    ws.missed[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                                   0.5 * (ws.volumeBefore[l] * ws.workOfForces[l] +
-                                          ws.volume[l] * ws.workOfForcesAfter[l]);
+                    ws.missed[l] =
+                        ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
+                        0.5 * (ws.volumeBefore[l] * ws.workOfForces[l] + ws.volume[l] * ws.workOfForcesAfter[l]);
                 }
         });
     }
@@ -266,8 +266,8 @@ bool ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int cou
     return different == 0;
 }
 
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept, and copies
-/// of the last particle with it: sums look at all lanes.
+/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept, and
+/// copies of the last particle with it: sums look at all lanes.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk,
                                            bool oneMaterial) const
