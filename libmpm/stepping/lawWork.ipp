@@ -35,7 +35,7 @@ void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&halfOve
     }
 }
 
-/// body(law, mine) for each hyperelastic law in a chunk; mine(lane): is the lane of it?
+/// body(law, mine) for each hyperelastic law in a chunk; mine(lane): is the lane of it, or a copy of one that is?
 template <int dim, class Shape>
 template <class Body>
 void ExplicitStepper<dim, Shape>::forHyperelastic(Index first, int count, Body&& body) const
@@ -45,7 +45,7 @@ void ExplicitStepper<dim, Shape>::forHyperelastic(Index first, int count, Body&&
     for (std::int32_t m = *low; m <= *high; ++m)
         if (const auto* law = scene_.materials[std::size_t(m)].law->hyperelastic())
             if (std::find(material, material + count, m) != material + count)
-                body(*law, [=](int lane) { return lane < count && material[lane] == m; });
+                body(*law, [=](int lane) { return material[std::min(lane, count - 1)] == m; });
 }
 
 /// W(F) of hyperelastic lanes.
