@@ -36,7 +36,7 @@
 ///                          the state: 1/2 sum dt V sigma : D_w (USL, MUSL), - 1/2 sum dt V sigma : D* (USF). A
 ///                          leapfrog keeps kinetic + strain energy - staggering, not their sum without it
 ///     residual             gravityWork + tractionWork + bodyForceWork + motionWork + finiteStrainWork + change of
-///                          staggering ///                          - change of kineticEnergy - change of strainEnergy
+///                          staggering - change of kineticEnergy - change of strainEnergy
 ///                          - all losses
 /// Losses are positive when energy left the body. Leaving any entry out makes the residual grow by it. What remains is
 /// the change of dt from step to step (a leapfrog keeps energy at constant steps only) and round-off.

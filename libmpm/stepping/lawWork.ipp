@@ -35,7 +35,7 @@ void elasticEnergy(const constitutive::Chunk<dim>& chunk, const double (&halfOve
     }
 }
 
-/// body(law, mine) for each hyperelastic law in a chunk; mine(lane): is the lane of it?
+/// body(law, mine) for each hyperelastic law in a chunk; mine(lane): is the lane of it, or a copy of one that is?
 template <int dim, class Shape>
 template <class Body>
 void ExplicitStepper<dim, Shape>::forHyperelastic(Index first, int count, Body&& body) const
@@ -45,7 +45,7 @@ void ExplicitStepper<dim, Shape>::forHyperelastic(Index first, int count, Body&&
     for (std::int32_t m = *low; m <= *high; ++m)
         if (const auto* law = scene_.materials[std::size_t(m)].law->hyperelastic())
             if (std::find(material, material + count, m) != material + count)
-                body(*law, [=](int lane) { return lane < count && material[lane] == m; });
+                body(*law, [=](int lane) { return material[std::min(lane, count - 1)] == m; });
 }
 
 /// W(F) of hyperelastic lanes.
@@ -190,9 +190,9 @@ void ExplicitStepper<dim, Shape>::bookKept(Workspace& ws, Index first, int count
                 if (mine(l))
                 {
                     ws.energy[l] = ws.stored[l] / ws.J[l];
-                    ws.missed[l] = ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
-                                   0.5 * (ws.volumeBefore[l] * ws.workOfForces[l] +
-                                          ws.volume[l] * ws.workOfForcesAfter[l]);
+                    ws.missed[l] =
+                        ws.volume[l] / ws.J[l] * (ws.stored[l] - ws.storedBefore[l]) -
+                        0.5 * (ws.volumeBefore[l] * ws.workOfForces[l] + ws.volume[l] * ws.workOfForcesAfter[l]);
                 }
         });
     }
@@ -266,7 +266,8 @@ bool ExplicitStepper<dim, Shape>::loadModuli(Workspace& ws, Index first, int cou
     return different == 0;
 }
 
-/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept.
+/// One call for a chunk of one material; in a mixed chunk each law works on a copy and its own lanes are kept, and
+/// copies of the last particle with it: sums look at all lanes.
 template <int dim, class Shape>
 void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive::Chunk<dim>& chunk,
                                            bool oneMaterial) const
@@ -285,8 +286,8 @@ void ExplicitStepper<dim, Shape>::callLaws(Index first, int count, constitutive:
             continue;
         constitutive::Chunk<dim> own = before;
         scene_.materials[std::size_t(m)].law->update(own);
-        for (int l = 0; l < count; ++l)
-            if (material[l] == m)
+        for (int l = 0; l < lanes; ++l)
+            if (material[std::min(l, count - 1)] == m)
             {
                 for (int k = 0; k < stressSize<dim>; ++k)
                     chunk.stress[k][l] = own.stress[k][l];

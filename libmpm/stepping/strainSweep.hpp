@@ -5,7 +5,7 @@
 ///     bookSweep     the stress the law leaves, with its work and energy (energyBudget.hpp)
 /// Loops of their own for each of these spent twice the time on moving numbers between registers and cache.
 ///
-/// Compiled once per dimension. Covered by tests/unit/energyBudget.cpp and the scenes of tests/verification.
+/// Compiled once per dimension. Covered by tests/unit/strainSweep.cpp and the scenes of tests/verification.
 #include "base/record.hpp"
 #include "constitutive/law.hpp"
 #include "state/particles.hpp"
@@ -38,9 +38,9 @@ struct StrainLanes
     alignas(64) constitutive::StressLanes<dim> strainOfForces;
     alignas(64) double workOfForces[lanes];      ///< sigma : strainOfForces of the stress the step found
     alignas(64) double workOfForcesAfter[lanes]; ///< and of the one it leaves; kept on request
-    alignas(64) double missed[lanes];            ///< what a finite step misses of the change of energy (finiteStrainWork)
-    alignas(64) double energy[lanes];            ///< elastic energy density at the end; kept on request
-    bool inRange = true; ///< is det F of all lanes positive and finite?
+    alignas(64) double missed[lanes]; ///< what a finite step misses of the change of energy (finiteStrainWork)
+    alignas(64) double energy[lanes]; ///< elastic energy density at the end; kept on request
+    bool inRange = true;              ///< is det F of all lanes positive and finite?
     LaneSums laneSums;
 };
 

@@ -154,6 +154,30 @@ TEST_CASE("small motion in 3D: its middle and its exponential to round-off, from
         }
 }
 
+TEST_CASE("small motion in 2D: its exponential and turn to round-off")
+{
+    const double dt = 0.5;
+    alignas(64) TensorLanes<2> L;
+    fill<2>(L, constitutive::smallMotion<2> / dt, 8, false);
+    for (int l = 0; l < 4; ++l) // the largest there are
+        for (int k = 0; k < 4; ++k)
+            L[k][l] = (l == 1 && k == 1) || (l == 2 && k == 3) || (l == 3 && k != 0) ? -0.04 : 0.04;
+    for (int l = 0; l < lanes; ++l)
+    {
+        const Matrix<2> want = exponential<2>(dt * lane<2>(L, l));
+        const double m[4] = {L[0][l], L[1][l], L[2][l], L[3][l]};
+        double F[4] = {1, 0, 0, 1};
+        constitutive::advance<true>(dt, m, F);
+        for (int k = 0; k < 4; ++k)
+            CHECK(F[k] == Approx(want(k / 2, k % 2)).epsilon(0).margin(1e-15));
+        double exact[4] = {1, -2, 3, 0.5}, quick[4] = {1, -2, 3, 0.5};
+        constitutive::rotate<false>(dt, m, exact);
+        constitutive::rotate<true>(dt, m, quick);
+        for (int k = 0; k < 4; ++k)
+            CHECK(quick[k] == Approx(exact[k]).epsilon(0).margin(2e-15));
+    }
+}
+
 TEST_CASE("ten turns keep the volume")
 {
     CHECK(std::abs(volumeAfterTurns<2>() - 1) < 1e-11);

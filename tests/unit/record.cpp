@@ -1,6 +1,7 @@
 // Records: arithmetic and shuffles lane by lane, whatever registers they are made of.
 #include "base/record.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -137,4 +138,29 @@ TEST_CASE("records are loaded from and stored to columns")
     for (int k = 4; k < 16; ++k)
         CHECK(copy[k] == k);
     CHECK(copy[0] == 0);
+}
+
+TEST_CASE("records are loaded from and stored to any address, and touch nothing beside it")
+{
+    alignas(64) double column[24], copy[24];
+    for (int k = 0; k < 24; ++k)
+        column[k] = k;
+    for (int at = 0; at < 16; ++at)
+    {
+        std::fill_n(copy, 24, -1.0);
+        const Record r = loadAnywhere(column + at);
+        storeAnywhere(copy + 16 - at, r);
+        for (int k = 0; k < 8; ++k)
+            CHECK(r[k] == at + k);
+        for (int k = 0; k < 24; ++k)
+            CHECK(copy[k] == (k >= 16 - at && k < 24 - at ? k + 2 * at - 16 : -1));
+    }
+}
+
+TEST_CASE("one lane is calculated with as many are")
+{
+    const double one = splat<double>(3), other = splat<double>(4);
+    CHECK(one == 3);
+    CHECK(select(one < other, one, other) == 3);
+    CHECK(select(one > other, one, other) == 4);
 }

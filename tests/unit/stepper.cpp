@@ -2,6 +2,7 @@
 #include "base/error.hpp"
 #include "case/makeStepper.hpp"
 #include "constitutive/mohrCoulomb.hpp"
+#include "constitutive/neoHookean.hpp"
 #include "support/scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -266,6 +267,50 @@ TEST_CASE("a mixed chunk gives every particle its own law")
         const double strain = std::log(p.F[0][std::size_t(i)]);
         CHECK(p.stress[0][std::size_t(i)] == Approx((p.material[std::size_t(i)] ? 3e6 : 1e6) * strain).epsilon(1e-9));
     }
+}
+
+TEST_CASE("lanes without a particle tell nothing in a mixed chunk")
+{
+    // Two soils without cohesion that expand: all return to their apex and carry no stress, so none is stiff.
+    auto s = scenes::seedBlock({.corner = {1, 1, 0}, .n = {6, 6, 1}, .spacing = 0.25, .h = 0.5, .cells = {10, 10, 1}});
+    s.materials = {"one", "other"};
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+    {
+        s.particles.material[i] = std::int32_t(i % 2);
+        for (int a = 0; a < 2; ++a)
+            s.particles.v[a][i] = 10 * s.particles.x[a][i];
+    }
+    stepping::Scene scene;
+    for (const double friction : {42, 35})
+        scene.materials.push_back({"soil", 1000,
+                                   std::make_shared<constitutive::MohrCoulomb>(
+                                       constitutive::MohrCoulombParameters{{20e6, 0.42}, 0, friction, 0})});
+    scene.stressUpdate = StressUpdate::USF;
+    run(s, scene, "uGIMP", 1, 1e-4);
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        REQUIRE(s.particles.volume[i] > s.particles.volume0[i]);
+    CHECK(s.largestJacobian == 1);
+}
+
+TEST_CASE("waves in a hyperelastic body are as fast as its law says, in part chunks, too")
+{
+    // stretched, neo-Hookean bodies carry slower waves than det F alone would tell
+    auto s = scenes::seedBlock({.corner = {1, 1, 0}, .n = {6, 6, 1}, .spacing = 0.25, .h = 0.5, .cells = {10, 10, 1}});
+    for (std::size_t i = 0; i < std::size_t(s.particles.size()); ++i)
+        for (int a = 0; a < 2; ++a)
+            s.particles.v[a][i] = 10 * s.particles.x[a][i];
+    const constitutive::Material rubber{
+        "solid", 1000, std::make_shared<constitutive::NeoHookean>(constitutive::ElasticModuli{1e6, 0.3})};
+    run(s, sceneOf(rubber, StressUpdate::USF), "uGIMP", 1, 1e-3);
+    const auto& p = s.particles;
+    alignas(64) constitutive::TensorLanes<2> F;
+    for (int k = 0; k < 4; ++k)
+        for (int l = 0; l < lanes; ++l)
+            F[k][l] = p.F[k][std::size_t(std::min<Index>(l, p.size() - 1))];
+    alignas(64) double factor[lanes];
+    rubber.law->hyperelastic()->waveFactor(F, factor);
+    CHECK(s.particles.volume[20] > 1.01 * s.particles.volume0[20]);
+    CHECK(s.largestJacobian == std::max(1.0, *std::max_element(factor, factor + lanes)));
 }
 
 TEST_CASE("particles that leave the grid or are no longer finite end the run by name")
