@@ -174,6 +174,7 @@ Effect restEffect()
     e.without = [](EffectScene& s) { s.scene.rest.reset(); };
     e.neutral = [](EffectScene& s) { s.scene.rest = stepping::Rest{.tolerance = 1e-300}; };
     e.neutralText = "tolerance 1e-300";
+    e.differs = "tiles are smaller, so sums are in another order";
     e.did = [](const EffectRun& run) -> Deed {
         const Index slept = run.grown(&Ledger::restingSteps);
         if (slept == 0)

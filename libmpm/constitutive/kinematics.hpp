@@ -5,7 +5,8 @@
 ///     sigma <- dR sigma dR^T  dR = (I - dt W/2)^-1 (I + dt W/2), W = skew L   (Hughes & Winget 1980)
 ///     dEps = dt D,            D = sym L, then turned by half of dR
 ///     U of F = R U            for the domains of cpGIMP
-/// All as loops over 64 lanes, on 64 bytes, without branches; motion.hpp has the same for one register. Verified in tests/unit/kinematics.cpp.
+/// All as loops over 64 lanes, on 64 bytes, without branches; motion.hpp has the same for one register. Verified in
+/// tests/unit/kinematics.cpp.
 #include "base/types.hpp"
 
 namespace mpm::constitutive

@@ -182,10 +182,10 @@ class ExplicitStepper : public Stepper
     void relaxStress(Workspace& ws, Index first, int count, double dt, const constitutive::StressLanes<dim>& strain);
     void takeAveragedGradient(Workspace& ws, const state::Tile& tile, Index first, int count);
     void treatBefore(Workspace& ws, const state::Tile& tile, Index first, int count, double dt,
-                                       const constitutive::StressLanes<dim>& strainOfForces, double (&trace)[lanes],
-                                       double (&workOfForces)[lanes]);
+                     const constitutive::StressLanes<dim>& strainOfForces, double (&trace)[lanes],
+                     double (&workOfForces)[lanes]);
     void treatAfter(Workspace& ws, Index first, int count, double dt, const double (&trace)[lanes],
-                                      double (&workOfForcesAfter)[lanes]);
+                    double (&workOfForcesAfter)[lanes]);
     [[gnu::noinline]] void callTreatedLaws(Workspace& ws, Index first, int count, double dt, bool oneMaterial);
 
     // the work of a pass on one tile and one chunk, in chunkWork.ipp

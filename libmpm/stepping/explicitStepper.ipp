@@ -26,7 +26,7 @@ template <int dim, class Shape>
 ExplicitStepper<dim, Shape>::ExplicitStepper(state::State& state, const Scene& scene)
     : state_(state), scene_(scene), barriers_(wallBarriers(scene, state.grid)),
       layout_(state.grid, scene.contact ? scene.contact->bodyOf : std::vector<int>{},
-              state::TileLayout::bitsOf(dim, scene.rest.has_value()))
+              scene.tileBits.value_or(state::TileLayout::bitsOf(dim, scene.rest.has_value())))
 {
     if (scene.relaxationTime) // last: it needs what all others do
         effects_.push_back(std::make_unique<nodal::Damping<dim>>(*scene.relaxationTime));
@@ -121,12 +121,11 @@ void ExplicitStepper<dim, Shape>::step(double dt)
             strainPass(dt, 1, true);
         }
         else
-            particlePass(dt,
-                         {.velocity = true,
-                          .strain = true,
-                          .gradientLane = 1,
-                          .moves = true,
-                          .then = sortsNext() ? Project::nothing : Project::forces});
+            particlePass(dt, {.velocity = true,
+                              .strain = true,
+                              .gradientLane = 1,
+                              .moves = true,
+                              .then = sortsNext() ? Project::nothing : Project::forces});
         break;
     case StressUpdate::USF:
         strainVelocities(dt, false);
@@ -138,8 +137,7 @@ void ExplicitStepper<dim, Shape>::step(double dt)
         solveNodes();
         filterVelocities();
         moveSurfaces(dt);
-        particlePass(dt,
-                     {.velocity = true, .moves = true, .then = sortsNext() ? Project::nothing : firstProjection()});
+        particlePass(dt, {.velocity = true, .moves = true, .then = sortsNext() ? Project::nothing : firstProjection()});
         break;
     }
     bookStressWork(dt);

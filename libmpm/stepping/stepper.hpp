@@ -100,6 +100,9 @@ struct Scene
     bool staggeredStart = false; ///< the first kick is half a step: velocities live half a step before positions
     double picRate = 0;          ///< FLIP: r [1/s]: v_p <- (1 - a) v_p + a v*(x_p), a = 1 - exp(-r dt)
     Index sortInterval = 20;     ///< steps between sorts of the particles
+    /// 2^bits cells a side of a tile (state::TileLayout), which decides the order of sums; none: 5 in 2D, 4 in 3D, one
+    /// less where soil may sleep.
+    std::optional<int> tileBits;
 };
 
 /// What a moving wall or a rigid body met in the last step.

@@ -150,8 +150,7 @@ void ExplicitStepper<dim, Shape>::treatAfter(Workspace& ws, Index first, int cou
 
 /// The laws with histories and tension gaps; what they leave of plastic volume change, and that they yielded.
 template <int dim, class Shape>
-void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt,
-                                                  bool oneMaterial)
+void ExplicitStepper<dim, Shape>::callTreatedLaws(Workspace& ws, Index first, int count, double dt, bool oneMaterial)
 {
     auto& p = state_.particles;
     auto& chunk = ws.law;

@@ -1,6 +1,7 @@
 #pragma once
-/// What one thread works with while it passes over the particles of a tile: a chunk of particles and the windows of nodes
-/// around them. Columns of the chunk that only treatments or hyperelastic laws need are not touched by other scenes.
+/// What one thread works with while it passes over the particles of a tile: a chunk of particles and the windows of
+/// nodes around them. Columns of the chunk that only treatments or hyperelastic laws need are not touched by other
+/// scenes.
 #include "stepping/stepper.hpp"
 #include "stepping/strainSweep.hpp"
 #include "transfer/gridToParticle.hpp"
