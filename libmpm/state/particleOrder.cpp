@@ -1,5 +1,7 @@
 #include "state/particleOrder.hpp"
 
+#include "state/permutation.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -17,8 +19,6 @@ struct Entry
     Index at;
     bool operator<(const Entry& other) const { return key != other.key ? key < other.key : id < other.id; }
 };
-
-constexpr Index manyParticles = 20000; ///< worth a second thread
 
 /// Keys that differ in their last bits alone stand for cells of one tile, or half of one.
 constexpr int groupBits = 8;

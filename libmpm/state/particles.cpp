@@ -10,8 +10,6 @@ namespace mpm::state
 {
 namespace
 {
-constexpr Index manyParticles = 20000; ///< worth a second thread
-
 Index padded(Index n)
 {
     return (n + lanes - 1) / lanes * lanes;

@@ -8,6 +8,9 @@
 
 namespace mpm::state
 {
+/// From here on sorting is worth a second thread.
+inline constexpr Index manyParticles = 20000;
+
 class Permutation
 {
   public:

@@ -1,6 +1,7 @@
 #include "stepping/sortParticles.hpp"
 
 #include "state/particleOrder.hpp"
+#include "state/permutation.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +12,6 @@ namespace mpm::stepping
 {
 namespace
 {
-constexpr Index manyParticles = 20000; ///< worth a second thread
 
 /// The lattice node a support starts at, as TileLayout::key() bounds it.
 struct Axis
@@ -121,7 +121,7 @@ double largestMass(const state::Particles& particles)
 void sortByPosition(state::State& state, const state::TileLayout& layout, int supportNodes)
 {
     auto& p = state.particles;
-#pragma omp parallel for schedule(static) if (p.size() > manyParticles)
+#pragma omp parallel for schedule(static) if (p.size() > state::manyParticles)
     for (Index first = 0; first < p.size(); first += lanes)
         keysOf(state, layout, supportNodes, first, std::min<Index>(lanes, p.size() - first), p.sortKey.data() + first);
     sortByStoredKeys(state);
