@@ -12,7 +12,6 @@ namespace mpm::stepping
 {
 namespace
 {
-
 /// The lattice node a support starts at, as TileLayout::key() bounds it.
 struct Axis
 {
