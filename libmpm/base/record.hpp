@@ -156,6 +156,22 @@ MPM_INLINE void store(double* p, const HalfRecord& r)
     storeAs(p, r);
 }
 
+/// The same place, a multiple of a register's lanes, in several columns of one chunk.
+template <class R, int n, int length>
+MPM_INLINE void loadRow(const double (&columns)[n][length], int at, R (&row)[n])
+{
+    MPM_UNROLL
+    for (int k = 0; k < n; ++k)
+        row[k] = loadAs<R>(columns[k] + at);
+}
+template <class R, int n, int length>
+MPM_INLINE void storeRow(double (&columns)[n][length], int at, const R (&row)[n])
+{
+    MPM_UNROLL
+    for (int k = 0; k < n; ++k)
+        storeAs(columns[k] + at, row[k]);
+}
+
 /// Lane by lane: a where the mask is set, b elsewhere.
 template <class M, class R>
 requires(!std::is_class_v<R>) MPM_INLINE R select(const M& mask, const R& a, const R& b)
@@ -180,6 +196,26 @@ MPM_INLINE HalfRecord choose(const HalfMask& mask, double a, double b)
 MPM_INLINE double sumOf(const Record& r)
 {
     return ((r[0] + r[1]) + (r[2] + r[3])) + ((r[4] + r[5]) + (r[6] + r[7]));
+}
+/// The largest of the lanes; a NaN may hide others.
+MPM_INLINE double largestOf(const Record& r)
+{
+    double most = r[0];
+    for (int l = 1; l < 8; ++l)
+        most = r[l] > most ? r[l] : most;
+    return most;
+}
+MPM_INLINE double smallestOf(const Record& r)
+{
+    return -largestOf(-r);
+}
+/// Is the mask set in all lanes?
+MPM_INLINE bool allOf(const Mask& mask)
+{
+    bool all = true;
+    for (int l = 0; l < 8; ++l)
+        all = all && mask[l];
+    return all;
 }
 /// Lane by lane; a NaN in `a` is passed over.
 MPM_INLINE Record largerOf(const Record& a, const Record& b)

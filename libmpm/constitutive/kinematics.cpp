@@ -19,11 +19,7 @@ bool allSmall(const TensorLanes<dim>& L, double dt)
             high = largerOf(x, high);
             low = smallerOf(x, low);
         }
-    high = largerOf(-low, high);
-    double largest = 0;
-    for (int l = 0; l < 8; ++l)
-        largest = high[l] > largest ? high[l] : largest;
-    return dt * largest <= smallMotion<dim>;
+    return dt * largestOf(largerOf(-low, high)) <= smallMotion<dim>;
 }
 
 /// kernel(a, b) on registers of all lanes of two rows of columns, of which those of b change.
@@ -33,13 +29,10 @@ template <int na, int nb, class Kernel>
     for (int g = 0; g < lanes; g += 8)
     {
         Record x[na], y[nb];
-        for (int k = 0; k < na; ++k)
-            x[k] = load(a[k] + g);
-        for (int k = 0; k < nb; ++k)
-            y[k] = load(b[k] + g);
+        loadRow(a, g, x);
+        loadRow(b, g, y);
         kernel(x, y);
-        for (int k = 0; k < nb; ++k)
-            store(b[k] + g, y[k]);
+        storeRow(b, g, y);
     }
 }
 
@@ -116,8 +109,7 @@ void determinant(const TensorLanes<3>& F, double (&J)[lanes])
     for (int g = 0; g < lanes; g += 8)
     {
         Record f[9];
-        for (int k = 0; k < 9; ++k)
-            f[k] = load(F[k] + g);
+        loadRow(F, g, f);
         store(J + g, determinant(f));
     }
 }

@@ -20,7 +20,7 @@ struct Entry
     bool operator<(const Entry& other) const { return key != other.key ? key < other.key : id < other.id; }
 };
 
-/// Keys that differ in their last bits alone stand for cells of one tile, or half of one.
+/// Keys that differ in their last bits alone stand for neighbouring rows of cells of one tile.
 constexpr int groupBits = 8;
 constexpr std::size_t keysOfGroup = std::size_t(1) << groupBits;
 

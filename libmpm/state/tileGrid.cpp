@@ -87,6 +87,7 @@ NodeBox basesOf(const Column<std::int64_t>& key, std::size_t first, std::size_t 
     for (int a = 0; a < layout.dim(); ++a)
     {
         const int shift = a * layout.bits();
+        static_assert(TileLayout::bitsOf(2) <= 5 && TileLayout::bitsOf(3) <= 5);
         std::uint32_t found = 0; // bit i: node i of the tile
         for (std::size_t i = first; i < end; ++i)
             found |= std::uint32_t(1) << ((key[i] >> shift) & inside);

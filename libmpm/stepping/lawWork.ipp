@@ -15,10 +15,15 @@ void workOfStrain(const constitutive::StressLanes<dim>& stress, const constituti
                   double (&density)[lanes])
 {
     for (int l = 0; l < lanes; ++l)
-        density[l] = stress[0][l] * dStrain[0][l];
-    for (int k = 1; k < stressSize<dim>; ++k)
-        for (int l = 0; l < lanes; ++l)
-            density[l] += (k < 3 ? 1 : 2) * stress[k][l] * dStrain[k][l];
+    {
+        double sigma[stressSize<dim>], e[stressSize<dim>];
+        for (int k = 0; k < stressSize<dim>; ++k)
+        {
+            sigma[k] = stress[k][l];
+            e[k] = dStrain[k][l];
+        }
+        density[l] = constitutive::work(sigma, e);
+    }
 }
 
 /// Elastic energy density in every lane.

@@ -8,29 +8,6 @@ namespace mpm::stepping
 {
 namespace
 {
-double largestOf(const Record& r)
-{
-    double most = r[0];
-    for (int l = 1; l < 8; ++l)
-        most = std::max(most, double(r[l]));
-    return most;
-}
-
-template <int n>
-MPM_INLINE void loadRow(const double (&column)[n][lanes], int g, Record (&row)[n])
-{
-    MPM_UNROLL
-    for (int k = 0; k < n; ++k)
-        row[k] = load(column[k] + g);
-}
-template <int n>
-MPM_INLINE void storeRow(double (&column)[n][lanes], int g, const Record (&row)[n])
-{
-    MPM_UNROLL
-    for (int k = 0; k < n; ++k)
-        store(column[k] + g, row[k]);
-}
-
 /// `isSmall`: short series do.
 template <bool isSmall, int dim>
 void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const StrainStep& step,
@@ -108,9 +85,7 @@ void sweepStrain(StrainLanes<dim>& c, const StrainColumns<dim>& columns, const S
     }
     c.laneSums.smallestJacobian = smallest;
     c.laneSums.strainWorkBefore += workBefore;
-    c.inRange = true;
-    for (int l = 0; l < 8; ++l)
-        c.inRange = c.inRange && within[l];
+    c.inRange = allOf(within);
 }
 } // namespace
 
@@ -126,7 +101,7 @@ void LaneSums::addTo(TileSums& tile) const
     tile.finiteStrainWork += sumOf(finiteStrainWork);
     tile.plasticWork += sumOf(plasticWork);
     tile.apexVolume += sumOf(apexVolume);
-    tile.smallestJacobian = std::min(tile.smallestJacobian, -largestOf(-smallestJacobian));
+    tile.smallestJacobian = std::min(tile.smallestJacobian, smallestOf(smallestJacobian));
     tile.largestJacobian = std::max(tile.largestJacobian, largestOf(largestJacobian));
     tile.maxYield = std::max(tile.maxYield, largestOf(maxYield));
 }

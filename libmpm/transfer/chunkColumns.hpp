@@ -83,10 +83,7 @@ inline double largest(const Lanes& a)
     Record most = load(a);
     for (int g = 8; g < lanes; g += 8)
         most = largerOf(load(a + g), most);
-    double value = most[0];
-    for (int l = 1; l < 8; ++l)
-        value = most[l] > value ? most[l] : value;
-    return value;
+    return largestOf(most);
 }
 
 inline double smallest(const Lanes& a)
@@ -94,10 +91,7 @@ inline double smallest(const Lanes& a)
     Record least = load(a);
     for (int g = 8; g < lanes; g += 8)
         least = smallerOf(load(a + g), least);
-    double value = least[0];
-    for (int l = 1; l < 8; ++l)
-        value = least[l] < value ? least[l] : value;
-    return value;
+    return smallestOf(least);
 }
 
 /// Is low <= a <= high in all lanes? (Not where a is NaN.)
@@ -107,10 +101,7 @@ inline bool allWithin(const Lanes& a, double low, double high)
     auto within = lows == lows;
     for (int g = 0; g < lanes; g += 8)
         within &= (load(a + g) >= lows) & (load(a + g) <= highs);
-    bool all = true;
-    for (int l = 0; l < 8; ++l)
-        all = all && within[l];
-    return all;
+    return allOf(within);
 }
 
 /// out = column[0 .. count), repeated from the last value on, so that all lanes hold numbers kernels can work with.

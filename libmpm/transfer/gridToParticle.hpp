@@ -39,7 +39,7 @@ struct GradientNode
     }
 };
 
-/// Gathers work in groups of eight lanes; meanwhile() is called once a group (prefetching).
+/// Gathers call meanwhile() once every eight lanes (prefetching).
 template <int dim>
 struct Values
 {
@@ -77,14 +77,6 @@ MPM_INLINE void forFourLanes(Body&& body)
     body.template operator()<3>();
 }
 
-template <int n>
-MPM_INLINE void loadFour(const double (&weights)[n][lanes], int g, HalfRecord (&out)[n])
-{
-    MPM_UNROLL
-    for (int i = 0; i < n; ++i)
-        out[i] = loadAs<HalfRecord>(weights[i] + g);
-}
-
 /// Columns of four half records: out[k][g .. g + 4).
 MPM_INLINE void storeFour(HalfRecord (&r)[4], double* const (&out)[4], int g)
 {
@@ -105,8 +97,8 @@ template <class Shape, class Meanwhile>
         if (g % 8 == 0)
             meanwhile();
         HalfRecord x[n], y[n], value[4];
-        loadFour(w.axis[0].N, g, x);
-        loadFour(w.axis[1].N, g, y);
+        loadRow(w.axis[0].N, g, x);
+        loadRow(w.axis[1].N, g, y);
         forFourLanes([&]<int l>() __attribute__((always_inline)) {
             const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord sum{};
@@ -223,10 +215,10 @@ template <class Shape, class Meanwhile>
         if (g % 8 == 0)
             meanwhile();
         HalfRecord Nx[n], Gx[n], Ny[n], Gy[n], gradient[4];
-        loadFour(w.axis[0].N, g, Nx);
-        loadFour(w.axis[0].G, g, Gx);
-        loadFour(w.axis[1].N, g, Ny);
-        loadFour(w.axis[1].G, g, Gy);
+        loadRow(w.axis[0].N, g, Nx);
+        loadRow(w.axis[0].G, g, Gx);
+        loadRow(w.axis[1].N, g, Ny);
+        loadRow(w.axis[1].G, g, Gy);
         forFourLanes([&]<int l>() __attribute__((always_inline)) {
             const HalfRecord* row = opaque(window + w.offset[g + l]);
             HalfRecord x[n], sum{};

@@ -225,6 +225,24 @@ TEST_CASE("A tolerance nothing undercuts changes no bit")
     CHECK_FALSE(plain.state.particles.has(&state::Particles::quietLooks));
 }
 
+TEST_CASE("A state with the keys of other tiles is sorted anew and goes on")
+{
+    omp_set_num_threads(1);
+    const int dim = GENERATE(2, 3);
+    const bool smallFirst = GENERATE(false, true);
+    CAPTURE(dim, smallFirst);
+    auto start = bar(dim);
+    push(start, 1e-2 * soil().waveSpeed());
+    auto scene = barScene({}, dim);
+    const auto whole = run(start, scene, 60);
+    scene.tileBits = state::TileLayout::bitsOf(dim, smallFirst);
+    const auto first = run(start, scene, 25);
+    scene.tileBits = state::TileLayout::bitsOf(dim, !smallFirst);
+    const auto out = run(first.state, scene, 35);
+    CHECK(strainError(out.state, whole.state) < 1e-12);
+    CHECK(std::abs(residualOf(out.state, scene)) < 1e-12 * out.state.ledger.initialKineticEnergy);
+}
+
 TEST_CASE("A damped bar falls asleep, its books closed, and lies where it lies without")
 {
     omp_set_num_threads(1);

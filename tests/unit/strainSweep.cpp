@@ -54,6 +54,18 @@ void checkOthers(const Case<dim>& now, const Case<dim>& before)
     same(now.volume, before.volume);
 }
 
+/// Opens the case's columns and sweeps over them; volume0: where a part chunk has copies.
+template <int dim>
+stepping::StrainColumns<dim> swept(Case<dim>& c, stepping::StrainLanes<dim>& chunk, double (&volume0)[lanes])
+{
+    const auto columns = open(c, chunk, volume0);
+    transfer::Prefetch ahead;
+    ahead.clear();
+    ahead.begin(0);
+    stepping::strainSweep(chunk, columns, c.step, ahead);
+    return columns;
+}
+
 template <int dim>
 void checkSweeps(Case<dim> c)
 {
@@ -62,12 +74,7 @@ void checkSweeps(Case<dim> c)
     const Expected<dim> expected(given);
     stepping::StrainLanes<dim> chunk;
     double volume0[lanes];
-    const auto columns = open(c, chunk, volume0);
-    transfer::Prefetch ahead;
-    ahead.clear();
-    ahead.begin(0);
-
-    stepping::strainSweep(chunk, columns, c.step, ahead);
+    const auto columns = swept(c, chunk, volume0);
     checkRows(chunk.L, expected.L, 1);
     checkRows(chunk.law.dStrain, expected.strain, 1);
     checkRows(chunk.law.stress, expected.turned, 1e5);
@@ -159,11 +166,7 @@ bool staysInRange(int lane, double xx)
             c.F[k].data()[lane] = 0;
     stepping::StrainLanes<dim> chunk;
     double volume0[lanes];
-    const auto columns = open(c, chunk, volume0);
-    transfer::Prefetch ahead;
-    ahead.clear();
-    ahead.begin(0);
-    stepping::strainSweep(chunk, columns, c.step, ahead);
+    swept(c, chunk, volume0);
     return chunk.inRange;
 }
 } // namespace
